@@ -1,0 +1,27 @@
+// gnomon: soft shadow maps. The scalar backend: the formulas as they stand in the papers. Every other backend is measured by it.
+#pragma once
+
+#include <gnomon/backend/backend.hpp>
+
+namespace gnomon {
+
+/// The oracle: plain loops over plain numbers, the same bits on every machine and compiler.
+struct scalar {
+    template <texel_format Texel, kernel Kernel>
+    void filter_region(image_view<const Texel> from, image_view<Texel> to, texel_rect region, filter_scratch<Texel, Kernel>& scratch) const noexcept {
+        gnomon::filter_region<Kernel, Texel>(from, to, region, scratch);
+    }
+    template <texel_format Texel>
+    void receive(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity, const rule& r) const noexcept {
+        gnomon::receive<Texel>(texels, z, intensity, r);
+    }
+    template <texel_format Texel>
+    void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
+                 strided_span<float> intensity, const rule& r) const noexcept {
+        gnomon::receive<Texel>(map, x, y, z, intensity, r);
+    }
+};
+
+static_assert(backend_for<scalar, rg8, box<1>>);
+
+} // namespace gnomon

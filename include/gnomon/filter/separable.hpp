@@ -1,0 +1,118 @@
+// gnomon: soft shadow maps. The separable filter: columns into one wide line, the line into a row, one rounding.
+#pragma once
+
+#include <gnomon/filter/kernel.hpp>
+#include <gnomon/texel/image.hpp>
+#include <gnomon/texel/texel.hpp>
+
+#include <bit>
+#include <span>
+
+namespace gnomon {
+
+/// What a line between the passes holds: whole numbers where codes are whole (exact), doubles otherwise.
+template <texel_format Texel> using line_element = std::conditional_t<Texel::channel_type::whole_codes, std::uint32_t, double>;
+
+/// The memory a filter needs beside its images: one line of wide sums for each row it writes. Nothing is read from it that the
+/// same call did not write, so it may hold anything. For a map of `width` texels: filter_scratch_size<Texel, Kernel>(width) elements.
+template <texel_format Texel, kernel Kernel> [[nodiscard]] constexpr std::size_t filter_scratch_size(int width) noexcept {
+    return (static_cast<std::size_t>(greater(width, 0)) + 2 * static_cast<std::size_t>(Kernel::radius)) * static_cast<std::size_t>(Texel::channels);
+}
+
+/// Owns that memory; allocates in its constructor and never again.
+template <texel_format Texel, kernel Kernel> class filter_scratch {
+  public:
+    filter_scratch() = default;
+    explicit filter_scratch(int width) : line_(filter_scratch_size<Texel, Kernel>(width)) {}
+    [[nodiscard]] std::span<line_element<Texel>> line() noexcept { return line_; }
+
+  private:
+    std::vector<line_element<Texel>> line_;
+};
+
+namespace detail {
+
+/// A double cut to 36 significant bits, to nearest, by integer arithmetic: times a weight of up to 2^16 it is then exact, so the
+/// second pass gives the same bits whether or not a compiler fuses its multiply and add. Monotone; relative error 2^-36.
+[[nodiscard]] constexpr double to_36_bits(double v) noexcept {
+    constexpr std::uint64_t dropped = (1u << 17) - 1;
+    return std::bit_cast<double>((std::bit_cast<std::uint64_t>(v) + (dropped + 1) / 2) & ~dropped);
+}
+
+/// The first pass: for the columns [x0, x1) the weighted sums of the 2R+1 rows around `y`. What lies off the map is clear.
+template <kernel Kernel, texel_format Texel>
+void sum_columns(image_view<const Texel> from, int y, int x0, int x1, std::span<line_element<Texel>> line) noexcept {
+    using element = line_element<Texel>;
+    using channel_type = typename Texel::channel_type;
+    constexpr int channels = Texel::channels;
+    constexpr Texel clear = Texel::clear();
+    const int inside0 = lesser(greater(x0, 0), x1), inside1 = greater(lesser(x1, from.width()), inside0);
+    const auto add = [&line, x0](element weight, int first, int last, auto texel_at) {
+        element* sum = line.data() + static_cast<std::ptrdiff_t>(first - x0) * channels;
+        for (int x = first; x < last; ++x)
+            for (int c = 0; c < channels; ++c, ++sum)
+                *sum += weight * static_cast<element>(channel_type::code(texel_at(x).stored[c]));
+    };
+    const auto outside = [&clear](int) -> const Texel& { return clear; };
+    for (std::size_t i = 0; i < static_cast<std::size_t>(x1 - x0) * channels; ++i) line[i] = element{};
+    for (int tap = 0; tap <= 2 * Kernel::radius; ++tap) {
+        const auto weight = static_cast<element>(Kernel::weights[static_cast<std::size_t>(tap)]);
+        const int row = y + tap - Kernel::radius;
+        const bool on_map = row >= 0 && row < from.height();
+        const Texel* texels = on_map ? from.row(row) : nullptr;
+        add(weight, x0, inside0, outside);
+        if (on_map) add(weight, inside0, inside1, [texels](int x) -> const Texel& { return texels[x]; });
+        else add(weight, inside0, inside1, outside);
+        add(weight, inside1, x1, outside);
+    }
+    if constexpr (!channel_type::whole_codes)
+        for (std::size_t i = 0; i < static_cast<std::size_t>(x1 - x0) * channels; ++i) line[i] = to_36_bits(line[i]);
+}
+
+/// The second pass and the one rounding: `width` texels out of a line that begins Kernel::radius columns before them.
+template <kernel Kernel, texel_format Texel>
+void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) noexcept {
+    using channel_type = typename Texel::channel_type;
+    using storage = typename Texel::storage;
+    constexpr int channels = Texel::channels;
+    constexpr auto whole = static_cast<std::uint64_t>(Kernel::total) * static_cast<std::uint64_t>(Kernel::total);
+    using wide = std::conditional_t<channel_type::whole_codes, std::uint64_t, double>;
+    for (int x = 0; x < width; ++x)
+        for (int c = 0; c < channels; ++c) {
+            wide sum{};
+            for (int tap = 0; tap <= 2 * Kernel::radius; ++tap)
+                sum += static_cast<wide>(Kernel::weights[static_cast<std::size_t>(tap)]) * static_cast<wide>(line[static_cast<std::size_t>((x + tap) * channels + c)]);
+            if constexpr (channel_type::whole_codes)
+                to[x].stored[c] = static_cast<storage>((sum + whole / 2) / whole); // to nearest, halves upwards
+            else
+                to[x].stored[c] = channel_type::store(sum / static_cast<double>(whole));
+        }
+}
+
+} // namespace detail
+
+/// Filters the texels of `region` from one image into another of the same size; everything outside the region is left alone.
+///
+/// Beyond the map's edge lies clear, never a repeated edge. Unorm results are the exact rational convolution rounded once, halves
+/// upwards. Half and float results are rounded once from a sum within 2^-35 of it, relatively. Clear stays exactly clear, a uniform
+/// region stays exactly itself, and e <= m holds at every texel. `scratch` is trusted for nothing.
+/// \pre `from` and `to` do not overlap. Cost: 2 (2R+1) multiply-adds a channel of a texel.
+template <kernel Kernel, texel_format Texel>
+void filter_region(image_view<const Texel> from, image_view<Texel> to, texel_rect region, filter_scratch<Texel, Kernel>& scratch) noexcept {
+    static_assert(kernel_is_sound<Kernel>());
+    region = clip(clip(region, to.size()), from.size());
+    [[maybe_unused]] const auto needed = filter_scratch_size<Texel, Kernel>(region.width());
+    GNOMON_ASSERT(region.empty() || scratch.line().size() >= needed, "gnomon: the filter's scratch is narrower than the region; make it for the map's width");
+    // Too narrow a scratch only cuts the region into strips.
+    const int widest = static_cast<int>(scratch.line().size() / static_cast<std::size_t>(Texel::channels)) - 2 * Kernel::radius;
+    if (region.empty() || widest <= 0) return;
+    for (int x0 = region.x0; x0 < region.x1; x0 += widest) {
+        const int x1 = lesser(region.x1, x0 + widest);
+        for (int y = region.y0; y < region.y1; ++y) {
+            detail::sum_columns<Kernel, Texel>(from, y, x0 - Kernel::radius, x1 + Kernel::radius, scratch.line());
+            detail::sum_row<Kernel, Texel>(scratch.line(), to.row(y) + x0, x1 - x0);
+        }
+    }
+}
+
+} // namespace gnomon

@@ -1,0 +1,9 @@
+// gnomon: soft shadow maps. All that runs on a CPU without GLM. For meshes and lights add <gnomon/geometry/...>.
+#pragma once
+
+#include <gnomon/backend/scalar.hpp>
+#include <gnomon/grid/reference_grid.hpp>
+#include <gnomon/receive/cull.hpp>
+#include <gnomon/receive/lightmap.hpp>
+#include <gnomon/soft_shadow_map.hpp>
+#include <gnomon/version.hpp>

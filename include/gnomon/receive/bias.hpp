@@ -1,0 +1,65 @@
+// gnomon: soft shadow maps. Bias: which way a decision errs where the stored numbers leave it open, and by how much.
+#pragma once
+
+#include <gnomon/texel/texel.hpp>
+
+#include <type_traits>
+
+namespace gnomon {
+
+/// Which side gets the benefit of the doubt.
+enum class bias_towards {
+    light,  ///< No false shadow: for casters that also receive. Contact shadows lose their faint rim.
+    none,   ///< The stored pair taken at its word. A receiver exactly at its caster's depth is shadowed in about half of all cases.
+    shadow, ///< No holes in the penumbra: for casters that never receive, the paper's case.
+};
+
+/// A bias lives in the multiplied domain, e > m (1-z), where a rounding has the same size at every m; so it grows as 1/m in depth,
+/// just as the doubt does, and no constant depth offset could do the same work.
+///
+/// `towards_light<Texel>`, `unbiased` and `towards_shadow<Texel>` are the three to use. In words of codes: with k roundings,
+/// towards light shadows iff E - k/2 > (M + k/2)(1 - z), which is the least bias without false shadow.
+struct bias {
+    bias_towards towards = bias_towards::light;
+    /// How often a filtered number was rounded to storage: 1 for gnomon's filters, 2 for a two-pass filter that stores between.
+    int roundings = 1;
+    /// Moves the receiver this much of the depth range to the favoured side: towards the light with `light`, away from it with
+    /// `shadow`, and not at all with `none`. A host's own bias in world units over the light's range goes here.
+    float depth = 0.0f;
+};
+
+/// What the rounding of a caster's own depth can do, and 2^-24 for the receiver's subtraction in float.
+template <texel_format Texel> inline constexpr float caster_depth_error = Texel::channel_type::max_error + 0x1p-24f;
+
+/// No false shadow for any caster depth s and receiver z <= s. Shadow is kept for every z > s + q (1+r)/m + q, with q = 2 max_error.
+template <texel_format Texel> inline constexpr bias towards_light{bias_towards::light, 1, caster_depth_error<Texel>};
+
+/// Exactly what is stored.
+inline constexpr bias unbiased{bias_towards::none, 1, 0.0f};
+
+/// No light for any z > s. Shadow may begin before the caster, by as much as towards_light loses behind it.
+template <texel_format Texel> inline constexpr bias towards_shadow{bias_towards::shadow, 1, caster_depth_error<Texel>};
+
+/// The pair (e, m) and the receiver z, each moved to the favoured end of what it may have been before it was rounded.
+struct biased {
+    double e;
+    double m;
+    float z;
+};
+
+/// Applies a bias to codes. Exact for unorm. For half and float in single precision, one operation at a time, so that any ISA can
+/// give the same bits; what that rounds is part of the bias.
+template <texel_format Texel> [[nodiscard]] constexpr biased apply(const bias& b, double e, double m, float z) noexcept {
+    using channel_type = typename Texel::channel_type;
+    using real = std::conditional_t<channel_type::whole_codes, double, float>;
+    constexpr rounding_error depth = Texel::representation_type::template depth_rounding<channel_type>();
+    constexpr rounding_error mask = channel_type::rounding;
+    constexpr float own = channel_type::whole_codes ? 0.0f : 0x1p-22f; // two operations and the conversion of a blended sample
+    const float towards = b.towards == bias_towards::light ? 1.0f : (b.towards == bias_towards::shadow ? -1.0f : 0.0f);
+    const float k = towards * static_cast<float>(b.roundings);
+    const real lower = (static_cast<real>(e) - static_cast<real>(k * depth.absolute)) * static_cast<real>(1.0f - (k * depth.relative + towards * own));
+    const real upper = (static_cast<real>(m) + static_cast<real>(k * mask.absolute)) * static_cast<real>(1.0f + (k * mask.relative + towards * own));
+    return {static_cast<double>(lower), static_cast<double>(upper), z - towards * b.depth};
+}
+
+} // namespace gnomon

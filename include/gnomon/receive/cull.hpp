@@ -1,0 +1,19 @@
+// gnomon: soft shadow maps. Receiver culling: which receivers no caster can reach, and need no shadow code at all.
+#pragma once
+
+#include <gnomon/grid/depth_range.hpp>
+
+namespace gnomon {
+
+/// Could any caster shadow a receiver whose texels are `footprint` and whose depths are `depth`?
+///
+/// False only if every point of it is lit: no marked tile touches it, or it lies before every caster of the tiles it touches.
+/// One texel is added on each side for the taps of a blended sample. Quantised maps may put a caster nearer than it is; the depth test
+/// here knows the true depths, so what it removes is never a true shadow. An empty interval has unknown depth and is not culled by it.
+[[nodiscard]] inline bool casters_reach(const depth_tiles& tiles, texel_rect footprint, depth_interval depth = {}) noexcept {
+    const texel_rect read = grow(footprint, 1);
+    return depth.empty() ? tiles.tiles().touches(read) : tiles.touches(read, depth.farthest);
+}
+[[nodiscard]] inline bool casters_reach(const tile_grid& tiles, texel_rect footprint) noexcept { return tiles.touches(grow(footprint, 1)); }
+
+} // namespace gnomon

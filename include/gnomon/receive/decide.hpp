@@ -1,0 +1,83 @@
+// gnomon: soft shadow maps. The decision: is a receiver in shadow, and how much?
+#pragma once
+
+#include <gnomon/filter/sample.hpp>
+#include <gnomon/receive/bias.hpp>
+
+#include <bit>
+#include <cstdint>
+
+namespace gnomon {
+
+/// How a filtered texel becomes an intensity.
+struct rule {
+    /// Which way the test against the caster errs.
+    bias caster{};
+    /// The same for the far bound, which is a caster of light: towards light keeps the shadow on the receiver that is the bound.
+    /// More `depth` pushes the bound away from the light. Ignored without effects{.far_bound = true}.
+    bias far_bound{};
+    /// Past the far bound the shadow fades out over this share of the depth range; 0 ends it at once.
+    float fade = 0.0f;
+    /// What lies beyond the light's far plane, z > 1: false leaves it to the test, which puts it behind every caster; true is lit.
+    bool lit_beyond = false;
+};
+
+/// The rule for a texel format and a bias, with the far bound's own rounding taken care of.
+template <texel_format Texel> [[nodiscard]] constexpr rule rule_for(bias caster) noexcept {
+    return {.caster = caster, .far_bound = towards_light<Texel>};
+}
+/// What every receive function uses if nothing else is said: no false shadow.
+template <texel_format Texel> inline constexpr rule default_rule = rule_for<Texel>(towards_light<Texel>);
+
+namespace detail {
+
+/// What is left of a shadow at `z`, from 1 before its far bound to 0 behind it. \pre b.m > 0
+template <texel_format Texel> [[nodiscard]] constexpr double before_far_bound(const biased& b, float fade) noexcept {
+    const double z = static_cast<double>(b.z);
+    if (!Texel::representation_type::behind(b.e, b.m, z)) return 1.0;
+    const double passed = b.m * z - (b.m - b.e); // m (z - far bound)
+    return fade > 0.0f ? saturate(1.0 - passed / (b.m * static_cast<double>(fade))) : 0.0;
+}
+
+} // namespace detail
+
+/// Intensity of the shadow on a receiver at depth `z`, in [0, 1]: the filtered mask (or contribution) if it lies behind the caster
+/// (seed 000, step 4), cut at the far bound if there is one.
+///
+/// Total: m = 0, negative or NaN is lit; z <= 0 and NaN is lit; z = +inf is behind everything; any bit pattern gives [0, 1].
+/// Exact for the stored codes of unorm texels: no rounding happens before the comparison is decided.
+template <texel_format Texel> [[nodiscard]] constexpr float shadow(const filtered<Texel>& texel, float z, const rule& r = default_rule<Texel>) noexcept {
+    using representation_type = typename Texel::representation_type;
+    if (!(texel.mask() > 0.0) || !(z > 0.0f) || (r.lit_beyond && z > 1.0f)) return 0.0f;
+    const biased near_side = apply<Texel>(r.caster, texel.depth(), texel.mask(), z);
+    if (!representation_type::behind(near_side.e, near_side.m, static_cast<double>(near_side.z))) return 0.0f;
+    const double intensity = saturate(texel.contribution() / static_cast<double>(Texel::channel_type::scale));
+    if constexpr (Texel::effects.far_bound)
+        return static_cast<float>(intensity * detail::before_far_bound<Texel>(apply<Texel>(r.far_bound, texel.far_bound(), texel.mask(), z), r.fade));
+    else
+        return static_cast<float>(intensity);
+}
+
+/// The same for a texel as it is stored.
+template <texel_format Texel> [[nodiscard]] constexpr float shadow(const Texel& texel, float z, const rule& r = default_rule<Texel>) noexcept {
+    return shadow(read(texel), z, r);
+}
+
+/// Depth of the caster behind a filtered texel, in [0, 1], for tools and pictures: s = 1 - e/m, and 1, the far plane, if m = 0.
+///
+/// Correctly rounded for stored texels. Exact up to that if one depth was filtered with clear texels, a weighted mean if several were (seed 000,
+/// "Disadvantages"). A unorm pair is within (2-s)/(2M) of the depth that was filtered, M the stored mask code: at M = 1 an 8-bit
+/// depth carries no information. Decisions never use it.
+template <texel_format Texel> [[nodiscard]] constexpr float caster_depth(const filtered<Texel>& texel) noexcept {
+    const double e = texel.depth(), m = texel.mask();
+    if (!(m > 0.0)) return 1.0f;
+    const double n = m - e, s = n / m;
+    // Twice rounded is once rounded, except where the first rounding made a tie of two floats: then lean to the side it came from.
+    auto bits = std::bit_cast<std::uint64_t>(s);
+    constexpr std::uint64_t below_float = (1ull << 29) - 1, tie = 1ull << 28;
+    if ((bits & below_float) == tie) bits = s * m < n ? bits + 1 : (s * m > n ? bits - 1 : bits);
+    return saturate(static_cast<float>(std::bit_cast<double>(bits)));
+}
+template <texel_format Texel> [[nodiscard]] constexpr float caster_depth(const Texel& texel) noexcept { return caster_depth(read(texel)); }
+
+} // namespace gnomon

@@ -1,0 +1,24 @@
+// gnomon: soft shadow maps. A dynamic shadow on light that was precomputed (seed 000, "Integrating with Single-pass Lightmaps").
+#pragma once
+
+#include <gnomon/texel/image.hpp>
+
+namespace gnomon {
+
+/// What a shadow leaves of a lightmap's light: light - shadow * max(light - ambient, 0).
+///
+/// Never brighter than `light`, never below `ambient` unless the light already was: a place the lightmap shows dark is not darkened
+/// twice. `shadow` is limited to [0, 1], NaN is no shadow; a NaN light or floor gives the light itself. Within 1 ulp of the formula.
+[[nodiscard]] constexpr float mask_light(float light, float shadow, float ambient) noexcept {
+    if (!(light > ambient)) return light;
+    const double taken = static_cast<double>(saturate(shadow)) * static_cast<double>(light - ambient);
+    return greater(ambient, lesser(light, static_cast<float>(static_cast<double>(light) - taken)));
+}
+
+/// One colour channel of a lightmap, in place or not: result[i] = mask_light(light[i], shadow[i], ambient). The shortest span counts.
+inline void mask_light(strided_span<const float> light, strided_span<const float> shadow, float ambient, strided_span<float> result) noexcept {
+    const int count = lesser(light.size(), lesser(shadow.size(), result.size()));
+    for (int i = 0; i < count; ++i) result[i] = mask_light(light[i], shadow[i], ambient);
+}
+
+} // namespace gnomon

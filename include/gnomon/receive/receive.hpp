@@ -1,0 +1,31 @@
+// gnomon: soft shadow maps. Many receivers at once: spans in, spans out, no map object needed.
+#pragma once
+
+#include <gnomon/receive/decide.hpp>
+
+namespace gnomon {
+
+/// Receivers that lie one to one on texels: intensity[i] = shadow(texels[i], z[i]). The shortest of the three spans counts.
+/// Any stride, so a column, a row, or a field of an array of structures will do. Nothing is allocated.
+template <texel_format Texel>
+void receive(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity, const rule& r = default_rule<Texel>) noexcept {
+    const int count = lesser(texels.size(), lesser(z.size(), intensity.size()));
+    for (int i = 0; i < count; ++i) intensity[i] = shadow(texels[i], z[i], r);
+}
+
+/// A whole image of receivers, one to one on the texels of the map; what the three images share is written.
+template <texel_format Texel>
+void receive(image_view<const Texel> map, image_view<const float> z, image_view<float> intensity, const rule& r = default_rule<Texel>) noexcept {
+    const int rows = lesser(map.height(), lesser(z.height(), intensity.height()));
+    for (int y = 0; y < rows; ++y) receive<Texel>(map.row_span(y), z.row_span(y), intensity.row_span(y), r);
+}
+
+/// Receivers anywhere: at (x[i], y[i]) in texels, blended from four. Off the map is lit. The shortest span counts.
+template <texel_format Texel>
+void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
+             strided_span<float> intensity, const rule& r = default_rule<Texel>) noexcept {
+    const int count = lesser(lesser(x.size(), y.size()), lesser(z.size(), intensity.size()));
+    for (int i = 0; i < count; ++i) intensity[i] = shadow(sample(map, x[i], y[i]), z[i], r);
+}
+
+} // namespace gnomon

@@ -1,0 +1,110 @@
+// gnomon: soft shadow maps. The facade: one map, frame after frame. Everything it does is a stage you can also take alone.
+#pragma once
+
+#include <gnomon/backend/scalar.hpp>
+#include <gnomon/receive/cull.hpp>
+
+namespace gnomon {
+
+/// The size of a soft_shadow_map, in texels. Tiles of 16 to 64 texels serve most maps. An empty map is lit everywhere.
+struct map_size {
+    int width = 0;
+    int height = 0;
+    int tile = 32;
+};
+
+/// A soft shadow map: clear, cast, bound, filter, shadow; and the next frame the same (seed 000).
+///
+///     soft_shadow_map<rg8, binomial<3>> map({.width = 512, .height = 512});
+///     each frame:  map.clear();  map.cast(...);  map.filter();  ... map.shadow(x, y, z) ...
+///
+/// Casting and filtering cost what the casters cover, not what the map measures. Allocates in its constructor and never again.
+/// Between `filter` and the next `clear` any number of threads may read.
+template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Kernel> Backend = scalar> class soft_shadow_map {
+  public:
+    explicit soft_shadow_map(map_size size, Backend run = {})
+        : run_(run), casters_({size.width, size.height}, Texel::clear()), soft_({size.width, size.height}, Texel::clear()),
+          tiles_({size.width, size.height}, size.tile), filtered_(tiles_.tiles()), scratch_(size.width) {}
+
+    /// How `shadow` and `receive` decide; no false shadow unless you say otherwise.
+    rule decision = default_rule<Texel>;
+
+    [[nodiscard]] extent size() const noexcept { return casters_.size(); }
+    /// Where shadows may lie, this frame.
+    [[nodiscard]] const depth_tiles& tiles() const noexcept { return tiles_; }
+    /// The filtered map, for an engine that reads it itself. Valid after `filter`.
+    [[nodiscard]] image_view<const Texel> soft() const noexcept { return soft_.view(); }
+
+    /// Begins a frame: forgets every caster. The filtered map stays readable until the next `filter`.
+    void clear() noexcept {
+        clear_tiles(casters_.view(), tiles_.tiles());
+        tiles_.clear();
+    }
+
+    /// Casts a rectangle at depth `s`, where nothing nearer is.
+    void cast(texel_rect r, float s) noexcept { cast_texel(r, s, Texel::caster(s)); }
+    /// The same, letting 1 - opacity of the light through.
+    void cast(texel_rect r, float s, float opacity) noexcept
+        requires(Texel::effects.translucency)
+    {
+        cast_texel(r, s, Texel::caster(s, opacity));
+    }
+
+    /// For casters that you rasterise yourself: write into this image with Texel::cast, and mark what you wrote.
+    [[nodiscard]] image_view<Texel> casters() noexcept { return casters_.view(); }
+    /// Says that `r` now holds casters in `depth`. Whatever is written and not marked is neither filtered nor cleared.
+    void mark(texel_rect r, depth_interval depth) noexcept { tiles_.mark(r, depth, Kernel::radius); }
+
+    /// A receiver at depth `z` ends the shadow of the casters before it. After all casters, before `filter`.
+    void bound(texel_rect r, float z) noexcept
+        requires(Texel::effects.far_bound)
+    {
+        for_each_region(tiles_.tiles(), [&](texel_rect tile) { edit(intersection(r, tile), [z](Texel& t) { t.bound(z); }); });
+    }
+
+    /// Blurs what was cast into the map that `shadow` reads.
+    void filter() noexcept {
+        clear_tiles(soft_.view(), filtered_);
+        gnomon::filter<Kernel, Texel>(run_, casters_.view(), soft_.view(), tiles_.tiles(), scratch_);
+        filtered_ = tiles_.tiles();
+    }
+
+    /// Intensity at the centre of a texel, for a receiver at depth `z`; 0 off the map.
+    [[nodiscard]] float shadow(int x, int y, float z) const noexcept {
+        return whole(size()).contains(x, y) ? gnomon::shadow(soft()(x, y), z, decision) : 0.0f;
+    }
+    /// Intensity at a point in texels, blended from four.
+    [[nodiscard]] float sample(float x, float y, float z) const noexcept { return gnomon::shadow(gnomon::sample(soft(), x, y), z, decision); }
+    /// Many points at once.
+    void receive(strided_span<const float> x, strided_span<const float> y, strided_span<const float> z, strided_span<float> intensity) const noexcept {
+        run_.receive(soft(), x, y, z, intensity, decision);
+    }
+    /// One row of receivers, one to one on the texels of row `y`; all lit off the map.
+    void receive_row(int y, strided_span<const float> z, strided_span<float> intensity) const noexcept {
+        if (y >= 0 && y < size().height) return run_.receive(soft().row_span(y), z, intensity, decision);
+        for (int i = 0; i < intensity.size(); ++i) intensity[i] = 0.0f;
+    }
+
+    /// Could a receiver with these texels and depths be shadowed at all? If not, draw it without shadow code.
+    [[nodiscard]] bool reaches(texel_rect footprint, depth_interval depth = {}) const noexcept { return casters_reach(tiles_, footprint, depth); }
+
+  private:
+    template <typename F> void edit(texel_rect r, F&& f) noexcept {
+        r = clip(r, size());
+        for (int y = r.y0; y < r.y1; ++y)
+            for (int x = r.x0; x < r.x1; ++x) f(casters_(x, y));
+    }
+    void cast_texel(texel_rect r, float s, const Texel& caster) noexcept {
+        edit(r, [&caster](Texel& t) { t.cast(caster); });
+        mark(clip(r, size()), {saturate(s), saturate(s)});
+    }
+
+    [[no_unique_address]] Backend run_;
+    image<Texel> casters_;
+    image<Texel> soft_;
+    depth_tiles tiles_;
+    tile_grid filtered_;
+    filter_scratch<Texel, Kernel> scratch_;
+};
+
+} // namespace gnomon

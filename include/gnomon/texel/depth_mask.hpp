@@ -1,0 +1,40 @@
+// gnomon: soft shadow maps. What the two numbers of a texel mean: the premultiplied complement, which is the default.
+#pragma once
+
+#include <gnomon/texel/channel.hpp>
+
+namespace gnomon {
+
+/// The depth channel holds e = p (1-s), the mask holds m = p, where p is the share of the footprint that is caster.
+///
+/// (e, m) is premultiplied alpha whose colour is reversed depth. Clear is all zero and stays zero under every linear filter;
+/// e/m does not depend on the sum of the weights; floats keep their relative precision in the penumbra; e <= m always.
+/// Seed 000 writes the same pair as d = 1 - e; see paper_depth_mask.
+struct depth_mask {
+    /// What an empty texel holds in its depth and far-bound channels.
+    static constexpr double clear_depth = 0.0;
+
+    /// What a surface at depth `z` holds in them. NaN counts as the far plane.
+    [[nodiscard]] static constexpr double stored_depth(double z) noexcept { return 1.0 - z; }
+
+    /// Is a surface stored as `a` nearer to the light than one stored as `b`?
+    template <typename Code> [[nodiscard]] static constexpr bool nearer(Code a, Code b) noexcept { return a > b; }
+
+    /// How far a rounded depth code may be from its exact value.
+    template <channel Channel> [[nodiscard]] static constexpr rounding_error depth_rounding() noexcept { return Channel::rounding; }
+
+    /// Premultiplied reversed depth e from the filtered depth code, in codes: here, itself.
+    template <typename Real> [[nodiscard]] static constexpr Real complement(Real depth_code, Real /*scale*/) noexcept { return depth_code; }
+
+    /// Is a receiver at depth `z` behind the caster of a filtered pair (e, m)?   e > m (1-z)
+    ///
+    /// No division, so m = 0 is lit by construction. Both sides are homogeneous: e and m may be codes. Evaluated in double
+    /// the comparison is exact for every e and m with up to 24 significant bits and e <= m, and every float `z`: the first
+    /// form rounds nothing when z >= 1/2, the second rounds m - e only where that cannot change the answer.
+    /// NaN anywhere compares false: lit. z = +inf counts as behind everything, z = -inf as before everything.
+    template <typename Real> [[nodiscard]] static constexpr bool behind(Real e, Real m, Real z) noexcept {
+        return z < Real(0.5) ? m * z > m - e : e > m * (Real(1) - z);
+    }
+};
+
+} // namespace gnomon

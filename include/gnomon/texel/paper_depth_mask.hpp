@@ -1,0 +1,39 @@
+// gnomon: soft shadow maps. What the two numbers of a texel mean in seed 000, to the letter: kept for comparison.
+#pragma once
+
+#include <gnomon/texel/channel.hpp>
+
+namespace gnomon {
+
+/// The depth channel holds d = p (s-1) + 1, cleared to 1; the mask holds m = p, cleared to 0.
+///
+/// A named baseline, in every table beside depth_mask, to show what the complement is for: the clear value survives a filter
+/// only if the weights sum to one in the arithmetic used; in floats d keeps an absolute, not a relative precision, which the
+/// division by m then magnifies (half at m = 1/100: 0.059 of the depth range against 0.001); unorm formats are equal.
+struct paper_depth_mask {
+    /// What an empty texel holds in its depth and far-bound channels.
+    static constexpr double clear_depth = 1.0;
+
+    /// What a surface at depth `z` holds in them. NaN counts as the far plane.
+    [[nodiscard]] static constexpr double stored_depth(double z) noexcept { return z < 1.0 ? z : 1.0; }
+
+    /// Is a surface stored as `a` nearer to the light than one stored as `b`?
+    template <typename Code> [[nodiscard]] static constexpr bool nearer(Code a, Code b) noexcept { return a < b; }
+
+    /// How far a rounded depth code may be from its exact value: near d = 1 a relative error is an absolute one.
+    template <channel Channel> [[nodiscard]] static constexpr rounding_error depth_rounding() noexcept {
+        return Channel::whole_codes ? Channel::rounding : rounding_error{.relative = 0.0f, .absolute = Channel::max_error};
+    }
+
+    /// Premultiplied reversed depth e = 1 - d from the filtered depth code, in codes.
+    template <typename Real> [[nodiscard]] static constexpr Real complement(Real depth_code, Real scale) noexcept { return scale - depth_code; }
+
+    /// Is a receiver at depth `z` behind the caster of a filtered pair?   z > s = (d-1)/m + 1
+    ///
+    /// The paper's own division, in the paper's own single precision. `m` = 0 gives NaN, which compares false: lit.
+    template <typename Real> [[nodiscard]] static constexpr bool behind(Real e, Real m, Real z) noexcept {
+        return static_cast<float>(z) > static_cast<float>(-e) / static_cast<float>(m) + 1.0f;
+    }
+};
+
+} // namespace gnomon
