@@ -65,7 +65,7 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
     /// Blurs what was cast into the map that `shadow` reads.
     void filter() noexcept {
         clear_tiles(soft_.view(), filtered_);
-        gnomon::filter<Kernel, Texel>(run_, casters_.view(), soft_.view(), tiles_.tiles(), scratch_);
+        gnomon::filter(run_, casters_.view(), soft_.view(), tiles_.tiles(), scratch_);
         filtered_ = tiles_.tiles();
     }
 

@@ -18,12 +18,13 @@ concept backend_for = texel_format<Texel> && kernel<Kernel> &&
         { run.receive(from, in, in, in, out, r) } noexcept;
     };
 
-/// Filters what the grid marks: filter<gaussian<4>>(scalar{}, casters, soft, tiles, scratch).
+/// Filters what the grid marks: filter(scalar{}, casters, soft, tiles, scratch).
+/// The scratch says which kernel.
 ///
 /// Equal to filtering the whole map, bit for bit, if every texel of `from` that is not clear was marked, with the kernel's radius as
 /// guard band, and `to` is clear where nothing is marked. A narrower guard band makes it filter the whole map.
 template <kernel Kernel, texel_format Texel, backend_for<Texel, Kernel> Backend>
-void filter(const Backend& run, image_view<const Texel> from, image_view<Texel> to, const tile_grid& tiles, filter_scratch<Texel, Kernel>& scratch) noexcept {
+void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const tile_grid& tiles, filter_scratch<Texel, Kernel>& scratch) noexcept {
     GNOMON_ASSERT(tiles.size() == from.size() && tiles.size() == to.size(), "gnomon: the tile grid and both images must have the same size");
     for_each_region_to_filter<Kernel>(tiles, [&](texel_rect r) { run.filter_region(from, to, r, scratch); });
 }

@@ -9,16 +9,16 @@ namespace gnomon {
 struct scalar {
     template <texel_format Texel, kernel Kernel>
     void filter_region(image_view<const Texel> from, image_view<Texel> to, texel_rect region, filter_scratch<Texel, Kernel>& scratch) const noexcept {
-        gnomon::filter_region<Kernel, Texel>(from, to, region, scratch);
+        gnomon::filter_region(from, to, region, scratch);
     }
     template <texel_format Texel>
     void receive(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity, const rule& r) const noexcept {
-        gnomon::receive<Texel>(texels, z, intensity, r);
+        gnomon::receive(texels, z, intensity, r);
     }
     template <texel_format Texel>
     void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
                  strided_span<float> intensity, const rule& r) const noexcept {
-        gnomon::receive<Texel>(map, x, y, z, intensity, r);
+        gnomon::receive(map, x, y, z, intensity, r);
     }
 };
 

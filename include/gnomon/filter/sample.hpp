@@ -41,7 +41,10 @@ template <texel_format Texel> [[nodiscard]] constexpr filtered<Texel> read(const
 ///
 /// Positions are taken to 1/256 texel, as texture units do, so the blend is exact for unorm and half texels; the error of position
 /// is at most 1/512 texel. Clear lies off the map; NaN and infinities are off the map. Keeps e <= m.
-template <texel_format Texel> [[nodiscard]] filtered<Texel> sample(image_view<const Texel> map, float x, float y) noexcept {
+template <typename T>
+    requires texel_format<std::remove_const_t<T>>
+[[nodiscard]] filtered<std::remove_const_t<T>> sample(image_view<T> map, float x, float y) noexcept {
+    using Texel = std::remove_const_t<T>;
     constexpr int steps = 256;
     const filtered<Texel> clear = read(Texel::clear());
     const double px = static_cast<double>(x), py = static_cast<double>(y);

@@ -98,7 +98,7 @@ void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) no
 /// region stays exactly itself, and e <= m holds at every texel. `scratch` is trusted for nothing.
 /// \pre `from` and `to` do not overlap. Cost: 2 (2R+1) multiply-adds a channel of a texel.
 template <kernel Kernel, texel_format Texel>
-void filter_region(image_view<const Texel> from, image_view<Texel> to, texel_rect region, filter_scratch<Texel, Kernel>& scratch) noexcept {
+void filter_region(std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, texel_rect region, filter_scratch<Texel, Kernel>& scratch) noexcept {
     static_assert(kernel_is_sound<Kernel>());
     region = clip(clip(region, to.size()), from.size());
     [[maybe_unused]] const auto needed = filter_scratch_size<Texel, Kernel>(region.width());

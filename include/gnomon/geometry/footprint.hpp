@@ -29,9 +29,12 @@ struct map_bounds {
 
     void include(const glm::dvec4& h) noexcept {
         const double x = h.x / h.w, y = h.y / h.w;
-        x0 = lesser(x0, x), x1 = greater(x1, x);
-        y0 = lesser(y0, y), y1 = greater(y1, y);
-        z0 = lesser(z0, h.z), z1 = greater(z1, h.z);
+        x0 = lesser(x0, x);
+        y0 = lesser(y0, y);
+        z0 = lesser(z0, h.z);
+        x1 = greater(x1, x);
+        y1 = greater(y1, y);
+        z1 = greater(z1, h.z);
     }
 
     [[nodiscard]] light_footprint rounded(extent size) const noexcept {
@@ -88,12 +91,14 @@ struct map_bounds {
         const double middle = at_centre * h.w - r * r * glm::dot(row, w);
         const glm::dvec3 across = row * h.w - w * at_centre, twist = glm::cross(row, w) * r;
         const double root = r * std::sqrt(greater(0.0, glm::dot(across, across) - glm::dot(twist, twist)));
-        k0 = (middle - root) / square, k1 = (middle + root) / square;
+        k0 = (middle - root) / square;
+        k1 = (middle + root) / square;
     };
     detail::map_bounds bounds;
     touching(x, h.x, bounds.x0, bounds.x1);
     touching(y, h.y, bounds.y0, bounds.y1);
-    bounds.z0 = h.z - reach, bounds.z1 = h.z + reach;
+    bounds.z0 = h.z - reach;
+    bounds.z1 = h.z + reach;
     return bounds.rounded(light.size());
 }
 

@@ -14,6 +14,7 @@
 #include <glm/vec4.hpp>
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 namespace gnomon {

@@ -27,51 +27,185 @@ struct touches_everything {
 };
 
 namespace detail {
-/// A triangle as the planes of its three projected corners (x W, y W, z, W).
-struct projected_triangle {
-    glm::dvec4 corner[3];
-    double facing = 0.0; ///< the sign of its area on the map, as if seen whole; homogeneous, so a corner may be behind the light
+/// A convex polygon of projected corners (x W, y W, z, W).
+struct projected_polygon {
+    glm::dvec4 corner[most_corners];
+    int count = 0;
+
+    constexpr void add(const glm::dvec4& h) noexcept {
+        if (count < most_corners) corner[count++] = h;
+    }
+
+    /// Cuts off what is below `plane`. A cut edge is always computed from its kept end, so both its triangles get the same corner.
+    constexpr void keep_above(const glm::dvec4& plane) noexcept {
+        double height[most_corners]{};
+        bool whole = true;
+        for (int i = 0; i < count; ++i) whole = (height[i] = glm::dot(plane, corner[i])) >= 0.0 && whole;
+        if (whole) return;
+        const projected_polygon uncut = *this;
+        count = 0;
+        for (int i = 0; i < uncut.count; ++i) {
+            const int next = i + 1 < uncut.count ? i + 1 : 0;
+            const bool here = height[i] >= 0.0, there = height[next] >= 0.0;
+            if (here) add(uncut.corner[i]);
+            if (here == there) continue;
+            const int in = here ? i : next, out = here ? next : i;
+            add(uncut.corner[in] + (uncut.corner[out] - uncut.corner[in]) * (height[in] / (height[in] - height[out])));
+        }
+    }
+
+    /// Cuts off what a spot light's near plane hides, and what is farther off the map than fixed_point can say.
+    constexpr void keep_drawable(bool near_plane_cuts) noexcept {
+        constexpr double reach = fixed_point::reach;
+        if (near_plane_cuts) keep_above({0.0, 0.0, 1.0, 0.0});
+        keep_above({1.0, 0.0, 0.0, reach});
+        keep_above({-1.0, 0.0, 0.0, reach});
+        keep_above({0.0, 1.0, 0.0, reach});
+        keep_above({0.0, -1.0, 0.0, reach});
+    }
 };
 
 /// The depth of a triangle at any texel centre. On the map depth is affine for a directional light; for a spot light 1/W is, and
-/// depth is affine in W. So one affine function is kept, of either. It is that of the corners before clipping and snapping.
+/// depth is affine in W. So one affine function is kept, of either: that of the corners as they were before clipping and snapping.
 class depth_surface {
   public:
-    depth_surface(const projected_triangle& t, const light_frame& light, const glm::dvec4& reference) noexcept
-        : near_w_(light.near_w()), per_w_(1.0 / (light.far_w() - light.near_w())), inverse_(light.perspective()) {
-        // q = a x + b y + c at every corner; times W: a X + b Y + c W = Q, with Q = 1 or z. Solved about a corner, where q is c.
-        x_ = reference.x / reference.w, y_ = reference.y / reference.w;
-        c_ = inverse_ ? 1.0 / reference.w : reference.z;
+    /// `corner` are the three corners; `reference` is any visible point of the triangle, about which it is solved.
+    depth_surface(const glm::dvec4* corner, const glm::dvec4& reference, const light_frame& light) noexcept
+        : inverse_(light.perspective()), near_w_(light.near_w()), per_w_(inverse_ ? 1.0 / (light.far_w() - near_w_) : 0.0),
+          x_(reference.x / reference.w), y_(reference.y / reference.w), c_(inverse_ ? 1.0 / reference.w : reference.z) {
+        // q = a x + b y + c at every corner; times W: a X + b Y + c W = Q, where Q is 1 or z. (Olano and Greer, "Triangle scan
+        // conversion using 2D homogeneous coordinates", 1997; a corner behind the light needs no care.)
         glm::dvec3 u[3], rest;
         for (int i = 0; i < 3; ++i) {
-            const glm::dvec4& h = t.corner[i];
+            const glm::dvec4& h = corner[i];
             u[i] = {h.x - x_ * h.w, h.y - y_ * h.w, h.w};
             rest[i] = (inverse_ ? 1.0 : h.z) - c_ * h.w;
-            nearest_ = i ? lesser(nearest_, h.z) : h.z, farthest_ = i ? greater(farthest_, h.z) : h.z;
+            nearest_ = lesser(nearest_, h.z);
+            farthest_ = greater(farthest_, h.z);
         }
-        const glm::dvec3 u12 = glm::cross(u[1], u[2]), u20 = glm::cross(u[2], u[0]), u01 = glm::cross(u[0], u[1]);
-        const double det = glm::dot(u[0], u12);
-        if (!(std::abs(det) > 0.0)) { // edge-on: the texels that snapping gives it, if any, get its nearest depth
-            farthest_ = nearest_;
-            return;
+        const glm::dvec3 u01 = glm::cross(u[0], u[1]), u12 = glm::cross(u[1], u[2]), u20 = glm::cross(u[2], u[0]);
+        area_ = glm::dot(u[0], u12);
+        if (std::abs(area_) > 0.0) {
+            const glm::dvec3 abc = (rest[0] * u12 + rest[1] * u20 + rest[2] * u01) / area_;
+            a_ = abc.x;
+            b_ = abc.y;
+            c_ += abc.z;
+        } else {
+            farthest_ = nearest_; // edge-on: snapping may give it texels, and they get its nearest depth
         }
-        const glm::dvec3 abc = (rest[0] * u12 + rest[1] * u20 + rest[2] * u01) / det;
-        a_ = abc.x, b_ = abc.y, c_ += abc.z;
     }
 
-    /// Not beyond the corners' depths, whatever the slope: so a sliver, whose centre may lie 1/362 texel outside it, stays sane.
+    /// Positive for corners that turn from x to y on the map.
+    [[nodiscard]] double area() const noexcept { return area_; }
+
+    /// Never outside the corners' depths: so a steep triangle, whose texel may lie 1/362 texel outside it, does not shoot off.
     [[nodiscard]] float operator()(int x, int y) const noexcept {
         const double q = a_ * (x + 0.5 - x_) + (b_ * (y + 0.5 - y_) + c_);
-        double z = q;
-        if (inverse_) z = q > 0.0 ? (1.0 / q - near_w_) * per_w_ : farthest_;
+        const double z = !inverse_ ? q : (q > 0.0 ? (1.0 / q - near_w_) * per_w_ : farthest_);
         return static_cast<float>(z > nearest_ ? (z < farthest_ ? z : farthest_) : nearest_);
     }
 
   private:
-    double a_ = 0.0, b_ = 0.0, c_ = 0.0, x_ = 0.0, y_ = 0.0;
-    double nearest_ = 0.0, farthest_ = 0.0;
-    double near_w_, per_w_;
     bool inverse_;
+    double near_w_, per_w_;
+    double x_, y_;
+    double a_ = 0.0, b_ = 0.0, c_;
+    double nearest_ = std::numeric_limits<double>::infinity(), farthest_ = -nearest_;
+    double area_ = 0.0;
 };
+
+[[nodiscard]] inline bool is_finite(const glm::dvec4& h) noexcept { return std::isfinite(h.x + h.y + h.z + h.w); }
+
+/// The three corners of triangle `first / 3`, projected. Empty if an index is off the positions or a corner is not finite.
+[[nodiscard]] inline projected_polygon project(const triangle_mesh& mesh, int first, const glm::dmat4& to_map) noexcept {
+    projected_polygon triangle;
+    for (int i = 0; i < 3; ++i) {
+        const std::uint32_t index = mesh.indices[first + i];
+        if (index >= static_cast<std::uint32_t>(mesh.positions.size())) return {};
+        triangle.add(to_map * glm::dvec4(glm::dvec3(mesh.positions[static_cast<int>(index)]), 1.0));
+        if (!is_finite(triangle.corner[i])) return {};
+    }
+    return triangle;
+}
 } // namespace detail
+
+/// Calls `sink(x, y, depth)` once per triangle for every texel of `target`, a part of the map, whose centre the triangle covers.
+///
+/// *Coverage.* Corners are snapped to 1/256 texel, the rest is exact: see scan.hpp. Triangles that share an edge share no texel and
+/// leave none out. That holds up to 2^20 texels off the map; farther out, triangles are cut, along shared edges in the same way.
+///
+/// *Depth* is that of the triangle's plane at the texel centre, in float, linear, and within 2^-25 of the plane in [0, 1]: rounding
+/// to float is all of it. It is limited to the depths of the triangle's corners, but not to [0, 1]: a directional light's near plane
+/// cuts nothing off, so that casters before it keep their silhouette; neither does a far plane. A spot light's near plane cuts.
+///
+/// `touches(texel_rect)` may skip a triangle by the box around it. Returns what was touched: the texels, and the depths in [0, 1].
+/// The order is that of the indices, then rows, then columns. Nothing is allocated. Nothing is drawn by an invalid frame.
+template <typename Sink, typename Touches = touches_everything>
+    requires requires(Sink& sink, int i, float depth) { sink(i, i, depth); }
+light_footprint rasterize(const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side, Sink&& sink,
+                          Touches&& touches = {}) {
+    light_footprint touched;
+    target = clip(target, light.size());
+    if (target.empty() || !light.valid()) return touched;
+    const glm::dmat4 to_map = light.matrix() * mesh.model;
+    const double handedness = detail::volume(to_map);
+
+    for (int first = 0; first + 2 < mesh.indices.size(); first += 3) {
+        const detail::projected_polygon triangle = detail::project(mesh, first, to_map);
+        detail::projected_polygon visible = triangle;
+        visible.keep_drawable(light.perspective());
+        if (visible.count < 3) continue;
+
+        detail::fixed_point corners[detail::most_corners];
+        for (int i = 0; i < visible.count; ++i) {
+            const glm::dvec4& h = visible.corner[i];
+            corners[i] = h.w > 0.0 ? detail::fixed_point::nearest(h.x / h.w, h.y / h.w) : corners[0];
+        }
+        const texel_rect around = intersection(target, detail::centres_in(corners, visible.count));
+        if (around.empty() || !touches(around)) continue;
+
+        const detail::depth_surface depth(triangle.corner, visible.corner[0], light);
+        const bool towards = depth.area() * handedness < 0.0; // x, y, depth of a map are left-handed
+        if (side != faces::both && towards != (side == faces::towards_light)) continue;
+
+        detail::scan(corners, visible.count, around, [&](int y, int x0, int x1) {
+            for (int x = x0; x < x1; ++x) sink(x, y, depth(x, y));
+            const float one = saturate(depth(x0, y)), other = saturate(depth(x1 - 1, y)); // monotone along a row
+            touched.texels = union_box(touched.texels, {x0, y, x1, y + 1});
+            touched.depth.include({lesser(one, other), greater(one, other)});
+        });
+    }
+    return touched;
+}
+
+/// Casts triangles into a map: `tiles.mark(cast_triangles(texels, mesh, light).texels, guard)`. Texel (0, 0) is that of the map.
+///
+/// Depths are clamped to [0, 1]. The order of meshes and triangles does not show: see texel::cast. Returns what was touched.
+template <texel_format Texel>
+light_footprint cast_triangles(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light, faces side = faces::both) {
+    return rasterize(mesh, light, whole(texels.size()), side, [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s)); });
+}
+
+/// The same for casters that let 1 - `opacity` of the light through.
+template <texel_format Texel>
+    requires(Texel::effects.translucency)
+light_footprint cast_triangles(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light, float opacity,
+                               faces side = faces::both) {
+    return rasterize(mesh, light, whole(texels.size()), side, [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s, opacity)); });
+}
+
+/// Ends the shadows in a map at the first receiver behind each caster. Call it when all casters are in: see texel::bound.
+///
+/// `touches(texel_rect)` may skip triangles where nothing casts, as tile grids answer; `region` limits the work for receivers that
+/// are larger than that, such as a ground. Receivers before the near plane end nothing. Returns what was touched, caster or not.
+template <texel_format Texel, typename Touches = touches_everything>
+    requires(Texel::effects.far_bound)
+light_footprint bound_triangles(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light, faces side = faces::both,
+                                Touches&& touches = {}, texel_rect region = everywhere) {
+    const auto bound = [&](int x, int y, float z) {
+        if (z >= 0.0f) texels(x, y).bound(z);
+    };
+    return rasterize(mesh, light, clip(region, texels.size()), side, bound, touches);
+}
+
 } // namespace gnomon

@@ -21,14 +21,15 @@ struct fixed_point {
     std::int64_t x = 0;
     std::int64_t y = 0;
 
-    /// The nearest one, halves upwards. \pre both within +-reach
-    [[nodiscard]] static constexpr fixed_point nearest(double x, double y) noexcept {
-        return {static_cast<std::int64_t>(x * one + origin) - bias, static_cast<std::int64_t>(y * one + origin) - bias};
-    }
+    /// The nearest one, halves upwards; on the border if beyond reach, on its lower side if NaN.
+    [[nodiscard]] static constexpr fixed_point nearest(double x, double y) noexcept { return {nearest(x), nearest(y)}; }
 
   private:
-    static constexpr std::int64_t bias = 1 << 30; // above zero, truncating is rounding down
-    static constexpr double origin = static_cast<double>(bias) + 0.5;
+    [[nodiscard]] static constexpr std::int64_t nearest(double v) noexcept {
+        constexpr std::int64_t bias = 1 << 30; // above zero, truncating is rounding down
+        constexpr double per_texel = static_cast<double>(one), rounding = static_cast<double>(bias) + 0.5;
+        return static_cast<std::int64_t>(lesser(greater(-reach, v), reach) * per_texel + rounding) - bias;
+    }
 };
 
 /// The first column or row whose centre is at `v` or after it.
@@ -54,7 +55,8 @@ class edge_walk {
     constexpr edge_walk(fixed_point a, fixed_point b, int top) noexcept {
         if (b.y < a.y) {
             const fixed_point swapped = a;
-            a = b, b = swapped;
+            a = b;
+            b = swapped;
         }
         row_ = greater(first_centre(a.y), top);
         end_ = first_centre(b.y);
@@ -73,7 +75,10 @@ class edge_walk {
         const auto here = static_cast<int>(column_);
         column_ += step_;
         rest_ -= step_rest_;
-        if (rest_ < 0) ++column_, rest_ += unit_;
+        if (rest_ < 0) {
+            ++column_;
+            rest_ += unit_;
+        }
         return here;
     }
     [[nodiscard]] constexpr bool crosses(int row) const noexcept { return row >= row_ && row < end_; }
@@ -89,10 +94,10 @@ class edge_walk {
     std::int64_t column_ = 0, rest_ = 0, step_ = 0, step_rest_ = 0, unit_ = 1;
 };
 
-/// The most corners of a triangle that five planes have cut.
-inline constexpr int most_corners = 8;
+/// The most corners of a polygon: a triangle that five planes have cut has 8, and rounding may add a needle.
+inline constexpr int most_corners = 10;
 
-/// Calls `span(y, x0, x1)` for every run of texels of `target` that a polygon of 3 to 8 corners covers. Even-odd where it crosses
+/// Calls `span(y, x0, x1)` for every run of texels of `target` that a polygon of 3 to `most_corners` corners covers. Even-odd where it crosses
 /// itself, as a convex one may after snapping, by a texel's fraction.
 template <typename Span> constexpr void scan(const fixed_point* corners, int count, texel_rect target, Span&& span) {
     target = intersection(target, centres_in(corners, count));

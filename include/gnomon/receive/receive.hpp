@@ -3,27 +3,38 @@
 
 #include <gnomon/receive/decide.hpp>
 
+#include <type_traits>
+
 namespace gnomon {
+
+/// The texel format of a row of texels: of a strided_span, std::span, std::vector or anything else with data() and size().
+template <typename Row> using texel_in = std::remove_const_t<typename decltype(strided_span(std::declval<const Row&>()))::element_type>;
+
+template <typename Row>
+concept texel_row = texel_format<texel_in<Row>>;
 
 /// Receivers that lie one to one on texels: intensity[i] = shadow(texels[i], z[i]). The shortest of the three spans counts.
 /// Any stride, so a column, a row, or a field of an array of structures will do. Nothing is allocated.
-template <texel_format Texel>
-void receive(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity, const rule& r = default_rule<Texel>) noexcept {
-    const int count = lesser(texels.size(), lesser(z.size(), intensity.size()));
-    for (int i = 0; i < count; ++i) intensity[i] = shadow(texels[i], z[i], r);
+template <texel_row Row>
+void receive(const Row& texels, strided_span<const float> z, strided_span<float> intensity, const rule& r = default_rule<texel_in<Row>>) noexcept {
+    const strided_span row(texels);
+    const int count = lesser(row.size(), lesser(z.size(), intensity.size()));
+    for (int i = 0; i < count; ++i) intensity[i] = shadow(row[i], z[i], r);
 }
 
 /// A whole image of receivers, one to one on the texels of the map; what the three images share is written.
-template <texel_format Texel>
-void receive(image_view<const Texel> map, image_view<const float> z, image_view<float> intensity, const rule& r = default_rule<Texel>) noexcept {
+template <typename T>
+    requires texel_format<std::remove_const_t<T>>
+void receive(image_view<T> map, image_view<const float> z, image_view<float> intensity, const rule& r = default_rule<std::remove_const_t<T>>) noexcept {
     const int rows = lesser(map.height(), lesser(z.height(), intensity.height()));
-    for (int y = 0; y < rows; ++y) receive<Texel>(map.row_span(y), z.row_span(y), intensity.row_span(y), r);
+    for (int y = 0; y < rows; ++y) receive(map.row_span(y), z.row_span(y), intensity.row_span(y), r);
 }
 
 /// Receivers anywhere: at (x[i], y[i]) in texels, blended from four. Off the map is lit. The shortest span counts.
-template <texel_format Texel>
-void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
-             strided_span<float> intensity, const rule& r = default_rule<Texel>) noexcept {
+template <typename T>
+    requires texel_format<std::remove_const_t<T>>
+void receive(image_view<T> map, strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
+             strided_span<float> intensity, const rule& r = default_rule<std::remove_const_t<T>>) noexcept {
     const int count = lesser(lesser(x.size(), y.size()), lesser(z.size(), intensity.size()));
     for (int i = 0; i < count; ++i) intensity[i] = shadow(sample(map, x[i], y[i]), z[i], r);
 }

@@ -14,6 +14,8 @@ namespace gnomon {
 /// `size` elements, `stride` bytes apart: one row of an image, a column, or any field of an array of structures.
 template <typename T> class strided_span {
   public:
+    using element_type = T;
+
     constexpr strided_span() noexcept = default;
     constexpr strided_span(T* data, int size, std::ptrdiff_t stride = sizeof(T)) noexcept
         : data_(data), size_(size > 0 ? size : 0), stride_(stride) {}
@@ -44,9 +46,13 @@ template <typename T> class strided_span {
     std::ptrdiff_t stride_ = sizeof(T);
 };
 
+template <typename Range> strided_span(Range&& range) -> strided_span<std::remove_pointer_t<decltype(range.data())>>;
+
 /// A rectangle of texels in memory that somebody else owns, rows `stride` bytes apart. A negative stride flips it.
 template <typename T> class image_view {
   public:
+    using element_type = T;
+
     constexpr image_view() noexcept = default;
     image_view(T* data, extent size, std::ptrdiff_t stride) noexcept
         : data_(data), size_{greater(size.width, 0), greater(size.height, 0)}, stride_(stride) {

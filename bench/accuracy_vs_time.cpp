@@ -1,0 +1,147 @@
+// What accuracy costs in time: every texel format through filter and receive, with its error beside its nanoseconds.
+//
+// Copying the same bytes is the floor, in the same run. Use --benchmark_enable_random_interleaving=true and --benchmark_repetitions=9, and
+// compare medians of cpu time within one run only. Counters: bytes (a texel), rmse and worst (intensity against the exact
+// filter in double, receivers 2 % of the range behind their caster), tiles (share of the map that was filtered).
+#include <gnomon/gnomon.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+namespace {
+
+using namespace gnomon;
+using soft = gaussian<4>;
+
+constexpr extent size{1024, 1024};
+constexpr float gap = 0.02f;
+
+struct disc {
+    int x, y, radius;
+    float depth;
+};
+
+/// Discs far enough apart for every footprint to hold one depth: then the method is exact, and what is left is storage.
+std::vector<disc> scene() {
+    std::vector<disc> discs;
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column)
+            discs.push_back({96 + 256 * column, 96 + 256 * row, 12 + 4 * row + 9 * column, 0.1f + 0.05f * static_cast<float>(4 * row + column)});
+    return discs;
+}
+
+bool covers(const disc& d, int x, int y) { return (x - d.x) * (x - d.x) + (y - d.y) * (y - d.y) < d.radius * d.radius; }
+
+texel_rect box_of(const disc& d) { return {d.x - d.radius, d.y - d.radius, d.x + d.radius + 1, d.y + d.radius + 1}; }
+
+template <typename Texel> void cast_scene(soft_shadow_map<Texel, soft>& map) {
+    for (const disc& d : scene()) {
+        const texel_rect box = box_of(d);
+        for (int y = box.y0; y < box.y1; ++y)
+            for (int x = box.x0; x < box.x1; ++x)
+                if (covers(d, x, y)) map.casters()(x, y).cast(Texel::caster(d.depth));
+        map.mark(box, {d.depth, d.depth});
+    }
+}
+
+double exact_mask(const disc& d, int x, int y) {
+    double sum = 0.0;
+    for (int j = -soft::radius; j <= soft::radius; ++j)
+        for (int i = -soft::radius; i <= soft::radius; ++i)
+            if (covers(d, x + i, y + j)) sum += 1.0 * soft::weights[static_cast<std::size_t>(i + soft::radius)] * soft::weights[static_cast<std::size_t>(j + soft::radius)];
+    return sum / (1.0 * soft::total * soft::total);
+}
+
+template <typename Texel> void report_error(benchmark::State& state, const soft_shadow_map<Texel, soft>& map) {
+    double squares = 0.0, worst = 0.0;
+    std::size_t count = 0;
+    for (const disc& d : scene()) {
+        const texel_rect reach = grow(box_of(d), soft::radius);
+        for (int y = reach.y0; y < reach.y1; ++y)
+            for (int x = reach.x0; x < reach.x1; ++x, ++count) {
+                const double error = static_cast<double>(map.shadow(x, y, d.depth + gap)) - exact_mask(d, x, y);
+                squares += error * error;
+                worst = std::max(worst, std::abs(error));
+            }
+    }
+    state.counters["rmse"] = std::sqrt(squares / static_cast<double>(count));
+    state.counters["worst"] = worst;
+    state.counters["bytes"] = sizeof(Texel);
+    state.SetItemsProcessed(state.iterations() * size.width * size.height);
+}
+
+template <typename Texel> void filter_whole(benchmark::State& state) {
+    soft_shadow_map<Texel, soft> map({size.width, size.height});
+    cast_scene(map);
+    map.filter();
+    image<Texel> result(size);
+    filter_scratch<Texel, soft> scratch(size.width);
+    for (auto _ : state) {
+        filter_region(map.casters(), result.view(), whole(size), scratch);
+        benchmark::ClobberMemory();
+    }
+    report_error(state, map);
+}
+
+template <typename Texel> void filter_tiles(benchmark::State& state) {
+    soft_shadow_map<Texel, soft> map({size.width, size.height});
+    cast_scene(map);
+    for (auto _ : state) {
+        map.filter();
+        benchmark::ClobberMemory();
+    }
+    report_error(state, map);
+    state.counters["tiles"] = map.tiles().tiles().count() / (1.0 * map.tiles().tiles().columns() * map.tiles().tiles().rows());
+}
+
+template <typename Texel> void receive_rows(benchmark::State& state) {
+    soft_shadow_map<Texel, soft> map({size.width, size.height});
+    cast_scene(map);
+    map.filter();
+    const std::vector<float> z(static_cast<std::size_t>(size.width), 0.5f);
+    std::vector<float> intensity(z.size());
+    for (auto _ : state)
+        for (int y = 0; y < size.height; ++y) {
+            map.receive_row(y, z, intensity);
+            benchmark::DoNotOptimize(intensity.data());
+            benchmark::ClobberMemory();
+        }
+    report_error(state, map);
+}
+
+template <typename Texel> void copy_floor(benchmark::State& state) {
+    const image<Texel> from(size);
+    image<Texel> to(size);
+    const auto bytes = static_cast<std::size_t>(from.view().stride()) * static_cast<std::size_t>(size.height);
+    for (auto _ : state) {
+        std::memcpy(to.view().data(), from.view().data(), bytes);
+        benchmark::ClobberMemory();
+    }
+    state.counters["bytes"] = sizeof(Texel);
+    state.SetItemsProcessed(state.iterations() * size.width * size.height);
+}
+
+} // namespace
+
+#define GNOMON_BENCH_FORMAT(texel)            \
+    BENCHMARK_TEMPLATE(copy_floor, texel);    \
+    BENCHMARK_TEMPLATE(filter_whole, texel);  \
+    BENCHMARK_TEMPLATE(filter_tiles, texel);  \
+    BENCHMARK_TEMPLATE(receive_rows, texel)
+
+using paper8 = texel<unorm8, paper_depth_mask>;
+using paper16f = texel<half16, paper_depth_mask>;
+
+GNOMON_BENCH_FORMAT(rg8);
+GNOMON_BENCH_FORMAT(rgba8);
+GNOMON_BENCH_FORMAT(rg16);
+GNOMON_BENCH_FORMAT(rg16f);
+GNOMON_BENCH_FORMAT(rg32f);
+GNOMON_BENCH_FORMAT(paper8);
+GNOMON_BENCH_FORMAT(paper16f);
+
+BENCHMARK_MAIN();
