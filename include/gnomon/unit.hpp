@@ -24,6 +24,9 @@ template <typename Real> [[nodiscard]] constexpr Real saturate(Real v) noexcept 
 template <typename T> [[nodiscard]] constexpr T lesser(T a, T b) noexcept { return b < a ? b : a; }
 template <typename T> [[nodiscard]] constexpr T greater(T a, T b) noexcept { return a < b ? b : a; }
 
+/// a == b, for storage that may be float, without the warning that engines rightly switch on for it.
+template <typename T> [[nodiscard]] constexpr bool same(T a, T b) noexcept { return a <= b && a >= b; }
+
 /// A closed interval of depths, by default empty: including a depth in it makes it non-empty.
 struct depth_interval {
     float nearest = 1.0f;
@@ -34,7 +37,9 @@ struct depth_interval {
         if (other.empty()) return;
         *this = empty() ? other : depth_interval{lesser(nearest, other.nearest), greater(farthest, other.farthest)};
     }
-    friend constexpr bool operator==(depth_interval, depth_interval) = default;
+    friend constexpr bool operator==(depth_interval a, depth_interval b) noexcept {
+        return same(a.nearest, b.nearest) && same(a.farthest, b.farthest);
+    }
 };
 
 } // namespace gnomon

@@ -1,4 +1,6 @@
 // gnomon: soft shadow maps. Bounding volumes in world space, in double so that a world far from its origin keeps its texels.
+//
+// Nothing that computes with GLM is constexpr here: it is not in GLM either, once a host has configured GLM for SIMD.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,7 +12,7 @@ struct bounding_sphere {
     glm::dvec3 centre{0.0};
     double radius = 0.0;
 
-    [[nodiscard]] constexpr bool empty() const noexcept {
+    [[nodiscard]] bool empty() const noexcept {
         return !(radius >= 0.0 && centre.x <= centre.x && centre.y <= centre.y && centre.z <= centre.z);
     }
 };
@@ -20,17 +22,17 @@ struct bounding_box {
     glm::dvec3 lower{0.0};
     glm::dvec3 upper{0.0};
 
-    [[nodiscard]] constexpr bool empty() const noexcept {
+    [[nodiscard]] bool empty() const noexcept {
         return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z);
     }
     /// Corner `i` of 8: bit 0, 1, 2 of `i` picks upper x, y, z.
-    [[nodiscard]] constexpr glm::dvec3 corner(int i) const noexcept {
+    [[nodiscard]] glm::dvec3 corner(int i) const noexcept {
         return {i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z};
     }
 };
 
 /// The smallest box around a ball; of an empty ball, an empty box.
-[[nodiscard]] constexpr bounding_box box_around(const bounding_sphere& ball) noexcept {
+[[nodiscard]] inline bounding_box box_around(const bounding_sphere& ball) noexcept {
     if (ball.empty()) return {glm::dvec3(1.0), glm::dvec3(0.0)};
     return {ball.centre - glm::dvec3(ball.radius), ball.centre + glm::dvec3(ball.radius)};
 }

@@ -17,13 +17,14 @@ namespace gnomon {
 ///
 /// The fit is *stable*. Texels are square and lie on a grid that is fixed in the world; their size is a power of 2^(1/8), so it
 /// changes only when the casters grow by 9 %. When casters move, the same world point keeps its place within its texel (below
-/// 1e-6 texel at 1e6 m), and nothing shimmers. Depth lies on such a grid too, of 255 cells: stored 8- and 16-bit depths shift by whole codes.
-/// The price is at most 9 % of the resolution, one texel and one depth cell. Camera-driven fits should pass one sphere: its
-/// size does not change when the camera turns.
+/// 1e-6 texel at 1e6 m), and nothing shimmers. Depth lies on such a grid too, of 255 cells: stored 8- and 16-bit depths shift by
+/// whole codes. The price is at most 9 % of the resolution, one texel and one depth cell. Camera-driven fits should pass one
+/// sphere: its size does not change when the camera turns.
 class directional_light {
   public:
     /// `direction` is the way the light travels, of any length. `up` appears as +y on the map; see detail::light_axes for when it cannot.
-    explicit directional_light(const glm::dvec3& direction, const glm::dvec3& up = glm::dvec3(0.0, 1.0, 0.0)) noexcept : axes_(direction, up) {}
+    explicit directional_light(const glm::dvec3& direction, const glm::dvec3& up = glm::dvec3(0.0, 1.0, 0.0)) noexcept
+        : axes_(direction, up) {}
 
     /// Covered by the map and by its depth range. Empty bounds are ignored, infinite ones make the frame invalid.
     void add_caster(const bounding_sphere& ball) noexcept {

@@ -46,7 +46,7 @@ struct map_bounds {
 
 /// Infinite bounds become merely enormous, where arithmetic makes no NaN of them.
 [[nodiscard]] constexpr double finite(double v) noexcept { return v > -1e30 ? (v < 1e30 ? v : 1e30) : -1e30; }
-[[nodiscard]] constexpr glm::dvec3 finite(const glm::dvec3& v) noexcept { return {finite(v.x), finite(v.y), finite(v.z)}; }
+[[nodiscard]] inline glm::dvec3 finite(const glm::dvec3& v) noexcept { return {finite(v.x), finite(v.y), finite(v.z)}; }
 } // namespace detail
 
 /// What of the map a box can touch, as a caster or as a receiver: every point of it lies in, and no side is a texel too far out.
@@ -61,13 +61,16 @@ struct map_bounds {
     for (int i = 0; i < 8; ++i) corners[i] = light.matrix() * glm::dvec4(solid.corner(i), 1.0);
 
     const auto visible = [&light](const glm::dvec4& h) { return !light.perspective() || h.z >= 0.0; };
+    const auto cut = [&light](const glm::dvec4& in, const glm::dvec4& out) {
+        const glm::dvec4 h = glm::mix(in, out, in.z / (in.z - out.z));
+        return glm::dvec4(h.x, h.y, 0.0, light.near_w()); // depth and W are known there, and no rounding may spoil the divide
+    };
     detail::map_bounds bounds;
     for (int i = 0; i < 8; ++i) {
         if (!visible(corners[i])) continue;
         bounds.include(corners[i]);
         for (const int axis : {1, 2, 4})
-            if (const glm::dvec4& hidden = corners[i ^ axis]; !visible(hidden))
-                bounds.include(glm::mix(corners[i], hidden, corners[i].z / (corners[i].z - hidden.z)));
+            if (!visible(corners[i ^ axis])) bounds.include(cut(corners[i], corners[i ^ axis]));
     }
     return bounds.rounded(light.size());
 }

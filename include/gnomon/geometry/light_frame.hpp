@@ -43,9 +43,9 @@ struct map_point {
 };
 
 namespace detail {
-[[nodiscard]] constexpr glm::dvec4 row(const glm::dmat4& m, int i) noexcept { return {m[0][i], m[1][i], m[2][i], m[3][i]}; }
+[[nodiscard]] inline glm::dvec4 row(const glm::dmat4& m, int i) noexcept { return {m[0][i], m[1][i], m[2][i], m[3][i]}; }
 
-[[nodiscard]] constexpr glm::dmat4 from_rows(const glm::dvec4& a, const glm::dvec4& b, const glm::dvec4& c, const glm::dvec4& d) noexcept {
+[[nodiscard]] inline glm::dmat4 from_rows(const glm::dvec4& a, const glm::dvec4& b, const glm::dvec4& c, const glm::dvec4& d) noexcept {
     return {a.x, b.x, c.x, d.x, a.y, b.y, c.y, d.y, a.z, b.z, c.z, d.z, a.w, b.w, c.w, d.w};
 }
 
@@ -171,7 +171,7 @@ struct light_axes {
         const double length = std::hypot(v.x, v.y, v.z);
         return length > 0.0 ? v / length : glm::dvec3(0.0);
     }
-    /// `up` is a hint: where it is within 0.06 degrees of the direction, world z takes its place, or x if that is so as well.
+    /// `up` is a hint: where it is within 0.06 degrees of the direction, zero or NaN, world z takes its place, or else world x.
     light_axes(const glm::dvec3& direction, const glm::dvec3& up) noexcept : forward(unit(direction)) {
         for (const glm::dvec3& hint : {unit(up), glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(1.0, 0.0, 0.0)}) {
             right = glm::cross(forward, hint);

@@ -20,8 +20,11 @@ struct triangle_mesh {
 /// mirroring model matrix does not turn it inside out. A triangle seen exactly edge-on counts as turned away.
 enum class faces { both, towards_light, away_from_light };
 
+/// What rounding a depth in [0, 1] to float costs at most: 2^-25.
+inline constexpr double raster_depth_error = 1.0 / 33554432.0;
+
 /// The region without a limit, and the test that skips nothing.
-inline constexpr texel_rect everywhere{-detail::int_max, -detail::int_max, detail::int_max, detail::int_max};
+inline constexpr texel_rect everywhere{-(1 << 29), -(1 << 29), 1 << 29, 1 << 29};
 struct touches_everything {
     [[nodiscard]] constexpr bool operator()(texel_rect) const noexcept { return true; }
 };
@@ -32,12 +35,12 @@ struct projected_polygon {
     glm::dvec4 corner[most_corners];
     int count = 0;
 
-    constexpr void add(const glm::dvec4& h) noexcept {
+    void add(const glm::dvec4& h) noexcept {
         if (count < most_corners) corner[count++] = h;
     }
 
     /// Cuts off what is below `plane`. A cut edge is always computed from its kept end, so both its triangles get the same corner.
-    constexpr void keep_above(const glm::dvec4& plane) noexcept {
+    void keep_above(const glm::dvec4& plane) noexcept {
         double height[most_corners]{};
         bool whole = true;
         for (int i = 0; i < count; ++i) whole = (height[i] = glm::dot(plane, corner[i])) >= 0.0 && whole;
@@ -54,8 +57,19 @@ struct projected_polygon {
         }
     }
 
+    /// Its corners on the map, snapped. False if nothing is left to draw, or if a corner was not finite: such a one is above no plane,
+    /// so it has been cut off, and the cut has left NaN in W.
+    [[nodiscard]] bool snap(fixed_point* snapped) const noexcept {
+        for (int i = 0; i < count; ++i) {
+            const glm::dvec4& h = corner[i];
+            if (!(h.w > 0.0)) return false;
+            snapped[i] = fixed_point::nearest(h.x / h.w, h.y / h.w);
+        }
+        return count >= 3;
+    }
+
     /// Cuts off what a spot light's near plane hides, and what is farther off the map than fixed_point can say.
-    constexpr void keep_drawable(bool near_plane_cuts) noexcept {
+    void keep_drawable(bool near_plane_cuts) noexcept {
         constexpr double reach = fixed_point::reach;
         if (near_plane_cuts) keep_above({0.0, 0.0, 1.0, 0.0});
         keep_above({1.0, 0.0, 0.0, reach});
@@ -85,14 +99,11 @@ class depth_surface {
         }
         const glm::dvec3 u01 = glm::cross(u[0], u[1]), u12 = glm::cross(u[1], u[2]), u20 = glm::cross(u[2], u[0]);
         area_ = glm::dot(u[0], u12);
-        if (std::abs(area_) > 0.0) {
-            const glm::dvec3 abc = (rest[0] * u12 + rest[1] * u20 + rest[2] * u01) / area_;
-            a_ = abc.x;
-            b_ = abc.y;
-            c_ += abc.z;
-        } else {
-            farthest_ = nearest_; // edge-on: snapping may give it texels, and they get its nearest depth
-        }
+        if (!(std::abs(area_) > 0.0)) return; // edge-on: a texel that snapping still gives it has the depth of the reference
+        const glm::dvec3 abc = (rest[0] * u12 + rest[1] * u20 + rest[2] * u01) / area_;
+        a_ = abc.x;
+        b_ = abc.y;
+        c_ += abc.z;
     }
 
     /// Positive for corners that turn from x to y on the map.
@@ -114,16 +125,13 @@ class depth_surface {
     double area_ = 0.0;
 };
 
-[[nodiscard]] inline bool is_finite(const glm::dvec4& h) noexcept { return std::isfinite(h.x + h.y + h.z + h.w); }
-
-/// The three corners of triangle `first / 3`, projected. Empty if an index is off the positions or a corner is not finite.
+/// The three corners of triangle `first / 3`, projected. Empty if an index is off the positions.
 [[nodiscard]] inline projected_polygon project(const triangle_mesh& mesh, int first, const glm::dmat4& to_map) noexcept {
     projected_polygon triangle;
     for (int i = 0; i < 3; ++i) {
         const std::uint32_t index = mesh.indices[first + i];
         if (index >= static_cast<std::uint32_t>(mesh.positions.size())) return {};
         triangle.add(to_map * glm::dvec4(glm::dvec3(mesh.positions[static_cast<int>(index)]), 1.0));
-        if (!is_finite(triangle.corner[i])) return {};
     }
     return triangle;
 }
@@ -132,11 +140,12 @@ class depth_surface {
 /// Calls `sink(x, y, depth)` once per triangle for every texel of `target`, a part of the map, whose centre the triangle covers.
 ///
 /// *Coverage.* Corners are snapped to 1/256 texel, the rest is exact: see scan.hpp. Triangles that share an edge share no texel and
-/// leave none out. That holds up to 2^20 texels off the map; farther out, triangles are cut, along shared edges in the same way.
+/// leave none out. Farther than 2^20 texels off the map triangles are cut, along shared edges in the same way. Corners may be up to
+/// 1e12 away; beyond, doubles no longer say where a cut is, and a texel may be missed or drawn twice.
 ///
-/// *Depth* is that of the triangle's plane at the texel centre, in float, linear, and within 2^-25 of the plane in [0, 1]: rounding
-/// to float is all of it. It is limited to the depths of the triangle's corners, but not to [0, 1]: a directional light's near plane
-/// cuts nothing off, so that casters before it keep their silhouette; neither does a far plane. A spot light's near plane cuts.
+/// *Depth* is that of the triangle's plane at the texel centre, in float, linear, and within `raster_depth_error` of the plane in
+/// [0, 1]: rounding to float is all of it. It is limited to the depths of the triangle's corners, but not to [0, 1]: a directional
+/// light's near plane cuts nothing off, so that casters before it keep their silhouette. A spot light's does. No far plane does.
 ///
 /// `touches(texel_rect)` may skip a triangle by the box around it. Returns what was touched: the texels, and the depths in [0, 1].
 /// The order is that of the indices, then rows, then columns. Nothing is allocated. Nothing is drawn by an invalid frame.
@@ -154,13 +163,8 @@ light_footprint rasterize(const triangle_mesh& mesh, const light_frame& light, t
         const detail::projected_polygon triangle = detail::project(mesh, first, to_map);
         detail::projected_polygon visible = triangle;
         visible.keep_drawable(light.perspective());
-        if (visible.count < 3) continue;
-
         detail::fixed_point corners[detail::most_corners];
-        for (int i = 0; i < visible.count; ++i) {
-            const glm::dvec4& h = visible.corner[i];
-            corners[i] = h.w > 0.0 ? detail::fixed_point::nearest(h.x / h.w, h.y / h.w) : corners[0];
-        }
+        if (!visible.snap(corners)) continue;
         const texel_rect around = intersection(target, detail::centres_in(corners, visible.count));
         if (around.empty() || !touches(around)) continue;
 

@@ -97,8 +97,8 @@ class edge_walk {
 /// The most corners of a polygon: a triangle that five planes have cut has 8, and rounding may add a needle.
 inline constexpr int most_corners = 10;
 
-/// Calls `span(y, x0, x1)` for every run of texels of `target` that a polygon of 3 to `most_corners` corners covers. Even-odd where it crosses
-/// itself, as a convex one may after snapping, by a texel's fraction.
+/// Calls `span(y, x0, x1)` for every run of texels of `target` that a polygon of 3 to `most_corners` corners covers. Even-odd
+/// where it crosses itself, as a convex one may after snapping, by a texel's fraction.
 template <typename Span> constexpr void scan(const fixed_point* corners, int count, texel_rect target, Span&& span) {
     target = intersection(target, centres_in(corners, count));
     if (target.empty()) return;

@@ -82,7 +82,11 @@ template <channel Channel, representation Representation = depth_mask, effects E
         if (Representation::nearer(surface, stored[far_index])) stored[far_index] = surface;
     }
 
-    friend constexpr bool operator==(const texel&, const texel&) = default;
+    friend constexpr bool operator==(const texel& a, const texel& b) noexcept {
+        for (int c = 0; c < channels; ++c)
+            if (!same(a.stored[c], b.stored[c])) return false;
+        return true;
+    }
 
   private:
     [[nodiscard]] constexpr bool nearer(const texel& incoming) const noexcept {

@@ -1,0 +1,71 @@
+#include <gnomon/geometry/spot_light.hpp>
+
+#include <gnomon/texel/channel.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace gnomon;
+
+namespace {
+struct dice {
+    std::mt19937_64 bits;
+    double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(bits); }
+    glm::dvec3 vector(double reach) { return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)}; }
+};
+} // namespace
+
+TEST_CASE("h18: depth is linear in the distance along the axis, wherever beside it") {
+    dice roll{std::mt19937_64(1)};
+    double worst = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+        const glm::dvec3 axis = glm::normalize(roll.vector(1.0)), position = roll.vector(50.0);
+        const double near_plane = roll(0.01, 5.0), far_plane = near_plane + roll(0.1, 1000.0);
+        const light_frame light = spot_light{.position = position, .direction = axis * 3.0, .near_plane = near_plane, .far_plane = far_plane}.frame({128, 128});
+        const double distance = roll(0.001, 1200.0);
+        const glm::dvec3 beside = glm::cross(axis, roll.vector(1.0)) * distance;
+        const double expected = (distance - near_plane) / (far_plane - near_plane);
+        worst = greater(worst, std::abs(light.to_map(position + axis * distance + beside).depth - expected) / (1.0 + std::abs(expected)));
+    }
+    CHECK(worst < 1e-11);
+}
+
+TEST_CASE("h18: between 0.1 and 100 m, 8 bits tell 0.40 m apart at half of the range, and 16 bits 1.6 mm") {
+    const light_frame light = spot_light{.direction = {0, 0, -1}, .near_plane = 0.1, .far_plane = 100.0}.frame({64, 64});
+    const auto at = [&](double distance) { return light.to_map({0, 0, -distance}).depth; };
+    for (double distance = 45.0; distance < 55.0; distance += 0.37) {
+        CHECK(unorm8::encode(at(distance)) != unorm8::encode(at(distance + 0.40)));
+        CHECK(unorm16::encode(at(distance)) != unorm16::encode(at(distance + 0.0016)));
+    }
+}
+
+TEST_CASE("the rim of the cone keeps the margin, and touches it") {
+    dice roll{std::mt19937_64(2)};
+    for (int i = 0; i < 300; ++i) {
+        const double angle = roll(0.01, 1.5);
+        const glm::dvec3 axis = glm::normalize(roll.vector(1.0)), position = roll.vector(9.0);
+        const extent size{50 + i % 40, 50 + i % 30};
+        const int margin = i % 7;
+        const light_frame light = spot_light{.position = position, .direction = axis, .outer_angle = angle, .up = roll.vector(1.0)}.frame(size, margin);
+        REQUIRE(light.valid());
+        const glm::dvec3 side = glm::normalize(glm::cross(axis, roll.vector(1.0))), other = glm::cross(axis, side);
+        const double radius = 0.5 * lesser(size.width, size.height) - margin;
+        double worst = 0.0;
+        for (double turn = 0.0; turn < 6.28; turn += 0.01) {
+            const glm::dvec3 rim = axis * std::cos(angle) + (side * std::cos(turn) + other * std::sin(turn)) * std::sin(angle);
+            const map_point m = light.to_map(position + rim * roll(0.1, 60.0));
+            worst = greater(worst, std::abs(std::hypot(m.x - 0.5 * size.width, m.y - 0.5 * size.height) - radius));
+        }
+        CHECK(worst < 1e-8);
+    }
+}
+
+TEST_CASE("looking along a light with up above, right is right") {
+    const light_frame light = spot_light{.position = {0, 0, 5}, .direction = {0, 0, -1}, .up = {0, 1, 0}}.frame({64, 64});
+    CHECK(light.to_map({1, 0, 0}).x > 32.5);
+    CHECK(std::abs(light.to_map({1, 0, 0}).y - 32.0) < 1e-9);
+    CHECK(light.to_map({0, 1, 0}).y > 32.5);
+    CHECK(std::abs(light.to_map({0, 1, 0}).x - 32.0) < 1e-9);
+}
