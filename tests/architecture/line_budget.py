@@ -1,0 +1,41 @@
+"""What every file of a user pays for an include: lines that are left after the preprocessor, without the empty ones."""
+import headers
+
+TEXEL, STORAGE, FILTER, UMBRELLA = 13000, 19000, 20000, 24000
+STORES = {"gnomon/texel/image.hpp", "gnomon/grid/tile_grid.hpp"}  # these own memory, so they include <vector>
+HEAVY = {"algorithm", "cmath", "functional", "memory", "ranges", "string", "iostream"}
+LIGHT_FOLDERS = {"texel", "grid", "filter", "receive", "backend"}
+
+
+def folder(header):
+    return header.split("/")[1]
+
+
+def budget(include, header):
+    if folder(header) in ("filter", "receive", "baseline", "identity"):
+        return FILTER
+    if folder(header) in ("backend", "soft_shadow_map.hpp", "gnomon.hpp"):
+        return UMBRELLA
+    return STORAGE if STORES & headers.closure(include, header) else TEXEL
+
+
+def check(include, compiler):
+    complaints = []
+    for header in headers.all_headers(include):
+        if folder(header) in LIGHT_FOLDERS:
+            complaints += [f"{header}: <{n}> is too heavy for {folder(header)}/" for _, n in headers.includes(include, header) if n in HEAVY]
+        if folder(header) in ("geometry", "simd", "gl"):
+            continue  # GLM, immintrin.h and GL text have their own price
+        lines = sum(1 for line in headers.preprocess(compiler, include, f"#include <{header}>\n", "-P").splitlines() if line.strip())
+        allowed = budget(include, header)
+        print(f"{lines:6} of {allowed}  {header}")
+        if lines > allowed:
+            complaints.append(f"{header}: {lines} lines after preprocessing, {allowed} are allowed")
+    return complaints
+
+
+headers.main(check, [
+    ("gnomon/filter/kernel.hpp", "#include <algorithm>\n", "too heavy"),
+    ("gnomon/texel/half.hpp", "#include <regex>\n", "lines after preprocessing"),
+    ("gnomon/soft_shadow_map.hpp", "#include <regex>\n", "gnomon/gnomon.hpp"),
+])

@@ -1,0 +1,45 @@
+# One way to take gnomon, from nothing: configure (or ask pkg-config), build, run, compare. See CMakeLists.txt beside this file.
+file(REMOVE_RECURSE ${BUILD})
+file(MAKE_DIRECTORY ${BUILD})
+
+function(run) # stops at the first command that fails
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE _result OUTPUT_VARIABLE _output ERROR_VARIABLE _output)
+  if(NOT _result EQUAL 0)
+    list(JOIN ARGN " " _command)
+    message(FATAL_ERROR "${_command}\nfailed:\n${_output}")
+  endif()
+endfunction()
+
+if(WAY STREQUAL "install")
+  run(${CMAKE_COMMAND} --install ${GNOMON_BUILD} --prefix ${BUILD})
+  return()
+elseif(WAY STREQUAL "pkg_config")
+  # A copy under another name, because the .pc file promises to survive being moved.
+  file(COPY ${PREFIX}/ DESTINATION ${BUILD}/moved)
+  set(ENV{PKG_CONFIG_PATH} ${BUILD}/moved/share/pkgconfig)
+  run(pkg-config --exact-version=${VERSION} gnomon)
+  execute_process(COMMAND pkg-config --cflags gnomon OUTPUT_VARIABLE _flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(_flags UNIX_COMMAND "${_flags}")
+  run(${CXX} -std=c++20 ${_flags} ${GNOMON}/examples/ten_lines.cpp -o ${BUILD}/consumer)
+else()
+  set(_configure ${CMAKE_COMMAND} -S ${SOURCE} -B ${BUILD} -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${CXX_FLAGS}
+      -DWAY=${WAY} -DGNOMON=${GNOMON} -DCMAKE_FIND_PACKAGE_PREFER_CONFIG=ON ${WITH})
+  if(WAY MATCHES "^find_package")
+    list(APPEND _configure -DCMAKE_PREFIX_PATH=${PREFIX})
+  endif()
+  if(REFUSED)
+    execute_process(COMMAND ${_configure} RESULT_VARIABLE _result OUTPUT_VARIABLE _output ERROR_VARIABLE _output)
+    string(REGEX REPLACE "[ \n]+" " " _output "${_output}") # CMake breaks its messages into lines
+    if(_result EQUAL 0 OR NOT _output MATCHES "${REFUSED}")
+      message(FATAL_ERROR "must be refused with \"${REFUSED}\", but exit code ${_result}:\n${_output}")
+    endif()
+    return()
+  endif()
+  run(${_configure})
+  run(${CMAKE_COMMAND} --build ${BUILD})
+endif()
+
+execute_process(COMMAND ${BUILD}/consumer RESULT_VARIABLE _result OUTPUT_VARIABLE _output)
+if(NOT _result EQUAL 0 OR NOT _output STREQUAL "${EXPECT}\n")
+  message(FATAL_ERROR "expected: ${EXPECT}\nprinted:  ${_output}exit code: ${_result}")
+endif()
