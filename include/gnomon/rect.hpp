@@ -64,25 +64,24 @@ namespace detail {
 inline constexpr int int_max = 2147483647;
 
 [[nodiscard]] constexpr int saturating_add(int a, int b) noexcept {
+    constexpr int int_min = -int_max - 1;
     if (b > 0) return a > int_max - b ? int_max : a + b;
-    return a < -int_max - b ? -int_max : a + b;
+    return a < int_min - b ? int_min : a + b;
 }
 
-/// `v` as an int no farther out than a map can reach; the caller has already rounded it.
-[[nodiscard]] constexpr int clamp_to_int(double v) noexcept {
-    constexpr double reach = 1073741824.0; // 2^30, so that a guard band cannot overflow
-    return static_cast<int>(v < -reach ? -reach : (v > reach ? reach : v));
+/// `v` no farther out than a map can reach: 2^30, so that a guard band cannot overflow.
+[[nodiscard]] constexpr double within_reach(double v) noexcept {
+    constexpr double reach = 1073741824.0;
+    return v < -reach ? -reach : (v > reach ? reach : v);
 }
 
 [[nodiscard]] constexpr int floor_to_int(double v) noexcept {
-    const int i = clamp_to_int(v);
-    return static_cast<double>(i) > v ? i - 1 : i;
+    const double bounded = within_reach(v);
+    const int i = static_cast<int>(bounded);
+    return static_cast<double>(i) > bounded ? i - 1 : i;
 }
 
-[[nodiscard]] constexpr int ceil_to_int(double v) noexcept {
-    const int i = clamp_to_int(v);
-    return static_cast<double>(i) < v ? i + 1 : i;
-}
+[[nodiscard]] constexpr int ceil_to_int(double v) noexcept { return -floor_to_int(-v); }
 } // namespace detail
 
 /// Every side moved outwards by `texels`, without overflow. An empty rectangle stays empty: a caster that is not there has

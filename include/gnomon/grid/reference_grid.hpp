@@ -82,7 +82,7 @@ class reference_grid {
   private:
     /// Divided by the tile size, truncated, clamped to the grid, both ends inclusive.
     [[nodiscard]] tile_rect span_of(real_rect r) const noexcept {
-        const auto tile = [](double edge, int texels) { return lesser(greater(detail::clamp_to_int(edge * side / texels), 0), side - 1); };
+        const auto tile = [](double edge, int texels) { return lesser(greater(static_cast<int>(detail::within_reach(edge * side / texels)), 0), side - 1); };
         return {tile(r.x0, map_.width), tile(r.y0, map_.height), tile(r.x1, map_.width) + 1, tile(r.y1, map_.height) + 1};
     }
 

@@ -32,7 +32,9 @@ struct bias {
 template <texel_format Texel> inline constexpr float caster_depth_error = Texel::channel_type::max_error + 0x1p-24f;
 
 /// No false shadow for any caster depth s and receiver z <= s. Shadow is kept, with q = 2 max_error, for every z beyond
-/// s + q (1+r+q)/m + q in unorm texels; s + 6 q in half (m >= 2^-14); s + 16 q in float.
+///     unorm   s + q (1+r+q)/m + q, where r = max(1-z, 0)
+///     half    s + 6 q, for m >= 2^-10
+///     float   s + 16 q
 template <texel_format Texel> inline constexpr bias towards_light{bias_towards::light, 1, caster_depth_error<Texel>};
 
 /// Exactly what is stored.

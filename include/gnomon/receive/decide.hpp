@@ -4,9 +4,6 @@
 #include <gnomon/filter/sample.hpp>
 #include <gnomon/receive/bias.hpp>
 
-#include <bit>
-#include <cstdint>
-
 namespace gnomon {
 
 /// How a filtered texel becomes an intensity.
@@ -31,12 +28,14 @@ template <texel_format Texel> inline constexpr rule default_rule = rule_for<Texe
 
 namespace detail {
 
-/// What is left of a shadow at `z`, from 1 before its far bound to 0 behind it. \pre b.m > 0
-template <texel_format Texel> [[nodiscard]] constexpr double before_far_bound(const biased& b, float fade) noexcept {
-    const double z = static_cast<double>(b.z);
-    if (!Texel::representation_type::behind(b.e, b.m, z)) return 1.0;
-    const double passed = b.m * z - (b.m - b.e); // m (z - far bound)
-    return fade > 0.0f ? saturate(1.0 - passed / (b.m * static_cast<double>(fade))) : 0.0;
+/// What is left of a shadow at `z`, from 1 before its far bound to 0 behind it; 1 if no receiver bounds it. \pre mask > 0
+template <texel_format Texel> [[nodiscard]] constexpr double before_far_bound(const filtered<Texel>& texel, float z, const rule& r) noexcept {
+    if (!(texel.far_bound() > 0.0)) return 1.0;
+    const biased bound = apply<Texel>(r.far_bound, texel.far_bound(), texel.mask(), z);
+    const double depth = static_cast<double>(bound.z);
+    if (!Texel::representation_type::behind(bound.e, bound.m, depth)) return 1.0;
+    const double passed = bound.m * depth - (bound.m - bound.e); // m (z - far bound)
+    return r.fade > 0.0f ? saturate(1.0 - passed / (bound.m * static_cast<double>(r.fade))) : 0.0;
 }
 
 } // namespace detail
@@ -51,11 +50,9 @@ template <texel_format Texel> [[nodiscard]] constexpr float shadow(const filtere
     if (!(texel.mask() > 0.0) || !(z > 0.0f) || (r.lit_beyond && z > 1.0f)) return 0.0f;
     const biased near_side = apply<Texel>(r.caster, texel.depth(), texel.mask(), z);
     if (!representation_type::behind(near_side.e, near_side.m, static_cast<double>(near_side.z))) return 0.0f;
-    const double intensity = saturate(texel.contribution() / static_cast<double>(Texel::channel_type::scale));
-    if constexpr (Texel::effects.far_bound)
-        return static_cast<float>(intensity * detail::before_far_bound<Texel>(apply<Texel>(r.far_bound, texel.far_bound(), texel.mask(), z), r.fade));
-    else
-        return static_cast<float>(intensity);
+    double intensity = saturate(texel.contribution() / static_cast<double>(Texel::channel_type::scale));
+    if constexpr (Texel::effects.far_bound) intensity *= detail::before_far_bound(texel, z, r);
+    return static_cast<float>(intensity);
 }
 
 /// The same for a texel as it is stored.
@@ -71,12 +68,7 @@ template <texel_format Texel> [[nodiscard]] constexpr float shadow(const Texel& 
 template <texel_format Texel> [[nodiscard]] constexpr float caster_depth(const filtered<Texel>& texel) noexcept {
     const double e = texel.depth(), m = texel.mask();
     if (!(m > 0.0)) return 1.0f;
-    const double n = m - e, s = n / m;
-    // Twice rounded is once rounded, except where the first rounding made a tie of two floats: then lean to the side it came from.
-    auto bits = std::bit_cast<std::uint64_t>(s);
-    constexpr std::uint64_t below_float = (1ull << 29) - 1, tie = 1ull << 28;
-    if ((bits & below_float) == tie) bits = s * m < n ? bits + 1 : (s * m > n ? bits - 1 : bits);
-    return saturate(static_cast<float>(std::bit_cast<double>(bits)));
+    return saturate(static_cast<float>((m - e) / m)); // never so close to a tie of floats that rounding twice would show
 }
 template <texel_format Texel> [[nodiscard]] constexpr float caster_depth(const Texel& texel) noexcept { return caster_depth(read(texel)); }
 

@@ -11,8 +11,9 @@ namespace gnomon {
 /// twice. `shadow` is limited to [0, 1], NaN is no shadow; a NaN light or floor gives the light itself. Within 1 ulp of the formula.
 [[nodiscard]] constexpr float mask_light(float light, float shadow, float ambient) noexcept {
     if (!(light > ambient)) return light;
-    const double taken = static_cast<double>(saturate(shadow)) * static_cast<double>(light - ambient);
-    return greater(ambient, lesser(light, static_cast<float>(static_cast<double>(light) - taken)));
+    const double l = static_cast<double>(light), share = static_cast<double>(saturate(shadow));
+    const double left = l - share * l + share * static_cast<double>(ambient); // exact products, so fusing them changes nothing
+    return greater(ambient, lesser(light, static_cast<float>(left)));
 }
 
 /// One colour channel of a lightmap, in place or not: result[i] = mask_light(light[i], shadow[i], ambient). The shortest span counts.

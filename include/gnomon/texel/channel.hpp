@@ -90,8 +90,9 @@ struct float32 {
     /// Half an ulp in [1/2, 1).
     static constexpr float max_error = 0x1p-25f;
 
-    [[nodiscard]] static constexpr storage encode(double v) noexcept { return static_cast<float>(saturate(v)); }
-    [[nodiscard]] static constexpr storage store(double code) noexcept { return static_cast<float>(code); }
+    [[nodiscard]] static constexpr storage encode(double v) noexcept { return store(saturate(v)); }
+    /// The addition keeps g++ 12 from dropping the rounding of a pair that is stored and read again (numerics, "SLP hazard").
+    [[nodiscard]] static constexpr storage store(double code) noexcept { return static_cast<float>(code) + 0.0f; }
     [[nodiscard]] static constexpr float code(storage c) noexcept { return c; }
     [[nodiscard]] static constexpr float decode(storage c) noexcept { return c; }
 };

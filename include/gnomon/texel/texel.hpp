@@ -74,11 +74,12 @@ template <channel Channel, representation Representation = depth_mask, effects E
 
     /// Lets a receiver at depth `z` end the shadow of the caster here: the nearest one not before the caster stays.
     /// Call it for receivers after all casters are in. Equal stored depths count as behind: what a caster stands on is bounded.
+    /// Nothing bounds an empty texel, whose clear depth lies behind every receiver.
     constexpr void bound(float z) noexcept
         requires(Effects.far_bound)
     {
         const storage surface = Channel::encode(Representation::stored_depth(static_cast<double>(z)));
-        if (!occupied() || Representation::nearer(surface, stored[depth_index])) return;
+        if (Representation::nearer(surface, stored[depth_index])) return;
         if (Representation::nearer(surface, stored[far_index])) stored[far_index] = surface;
     }
 

@@ -1,0 +1,2 @@
+// expect: gnomon
+#error "gnomon: fails either way"

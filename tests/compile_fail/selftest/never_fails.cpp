@@ -1,0 +1,2 @@
+// expect: gnomon
+int fine = 1;

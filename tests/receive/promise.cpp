@@ -1,0 +1,82 @@
+// The promises of bias.hpp from one end to the other: a caster at any depth, stored, filtered, rounded, and decided.
+#include <gnomon/receive/decide.hpp>
+
+#include "../support/bits.hpp"
+#include "../support/formats.hpp"
+#include "../support/sweep.hpp"
+#include "../support/threshold.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <type_traits>
+
+using namespace gnomon;
+using test::sweep;
+
+#define EVERY_PLAIN_TEXEL rg8, rg16, rg16f, rg32f, test::paper8, test::paper16, test::paper16f, test::paper32f
+
+namespace {
+
+/// Calls `f(s, covered, taps, texel)` for casters at trying depths under footprints from one texel to 33 x 33.
+template <typename Texel, typename F> void for_filtered_casters(F&& f) {
+    for (const float s : test::trying_depths<typename Texel::channel_type>(511)) {
+        const Texel caster = Texel::caster(s);
+        for (const int taps : {1, 9, 25, 81, 256, 289, 1089})
+            for (int covered = 1; covered <= taps; covered += 1 + taps / 24) {
+                const Texel texel = test::filtered(caster, covered, taps);
+                if (texel.occupied()) f(s, covered, taps, texel);
+            }
+    }
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("towards light: no receiver at or before its caster is shadowed", Texel, EVERY_PLAIN_TEXEL) {
+    sweep wrong;
+    for_filtered_casters<Texel>([&](float s, int covered, int taps, const Texel& texel) {
+        const float first = test::first_shadowed(texel, default_rule<Texel>);
+        wrong.unless(first > s, "s", s, "covered", covered, "of", taps, "is shadowed from", first);
+    });
+    CHECK(wrong.report() == "");
+}
+
+TEST_CASE_TEMPLATE("towards light: two roundings ask for two and then nothing at or before its caster is shadowed", Texel, EVERY_PLAIN_TEXEL) {
+    bias twice = towards_light<Texel>;
+    twice.roundings = 2;
+    sweep wrong;
+    for (const float s : test::trying_depths<typename Texel::channel_type>(255))
+        for (const int taps : {3, 9, 17})
+            for (int across = 1; across <= taps; across += 1 + taps / 8)
+                for (int along = 1; along <= taps; along += 1 + taps / 8) {
+                    const Texel texel = test::filtered(test::filtered(Texel::caster(s), across, taps), along, taps);
+                    const float first = test::first_shadowed(texel, rule_for<Texel>(twice));
+                    wrong.unless(first > s, "s", s, "covered", across, along, "of", taps, "is shadowed from", first);
+                }
+    CHECK(wrong.report() == "");
+}
+
+TEST_CASE_TEMPLATE("towards shadow: every receiver behind its caster is shadowed", Texel, EVERY_PLAIN_TEXEL) {
+    sweep wrong;
+    for_filtered_casters<Texel>([&](float s, int covered, int taps, const Texel& texel) {
+        const float first = test::first_shadowed(texel, rule_for<Texel>(towards_shadow<Texel>));
+        wrong.unless(first <= test::up(s), "s", s, "covered", covered, "of", taps, "is shadowed from", first);
+    });
+    CHECK(wrong.report() == "");
+}
+
+TEST_CASE_TEMPLATE("towards light: every receiver behind the stated band is shadowed and the band is nearly needed", Texel, EVERY_PLAIN_TEXEL) {
+    constexpr bool paper = std::is_same_v<typename Texel::representation_type, paper_depth_mask>;
+    sweep wrong;
+    double worst = 0.0;
+    for_filtered_casters<Texel>([&](float s, int covered, int taps, const Texel& texel) {
+        const double first = static_cast<double>(test::first_shadowed(texel, default_rule<Texel>)), depth = static_cast<double>(s);
+        const double bound = test::end_of_doubt<Texel>(depth, covered * 1.0 / taps);
+        const double next_float = paper ? 0x1p-22 : 0x1p-23 * bound; // the paper's own arithmetic is single precision around 1
+        wrong.unless(first <= bound + next_float, "s", s, "covered", covered, "of", taps, "first shadowed", first, "bound", bound, "share", (first - depth) / (bound - depth));
+        worst = std::max(worst, (first - depth) / (bound + next_float - depth));
+    });
+    CHECK(wrong.report() == "");
+    MESSAGE("largest share of the stated band that was lit: " << worst);
+    CHECK(worst >= (Texel::channel_type::whole_codes ? 0.98 : 0.75));
+}

@@ -1,0 +1,37 @@
+// Ways to filter a whole image: by the library, and by the definition.
+#pragma once
+
+#include "images.hpp"
+#include "kernels.hpp"
+
+#include <gnomon/filter/separable.hpp>
+
+namespace test {
+
+/// The whole of an image filtered by the library. The result's memory and the scratch begin as rubbish.
+template <gnomon::kernel Kernel, gnomon::texel_format Texel>
+gnomon::image<Texel> dense(const gnomon::image<Texel>& from) {
+    gnomon::image<Texel> to(from.size(), Texel::caster(0.25f));
+    gnomon::filter_scratch<Texel, Kernel> scratch(from.size().width);
+    for (auto& element : scratch.line())
+        std::memset(&element, 0xFF, sizeof element); // for floats, NaN
+    gnomon::filter_region(from.view(), to.view(), whole(from.size()), scratch);
+    return to;
+}
+
+/// sum of w(i) w(j) code(x+i, y+j) for one channel, in two dimensions at once; clear lies off the map. Exact in std::uint64_t for
+/// unorm texels, whose sums stay below 2^49.
+template <typename Number, gnomon::texel_format Texel>
+Number convolved(const gnomon::image<Texel>& from, const taps& k, int x, int y, int channel) {
+    const Texel clear = Texel::clear();
+    Number sum = 0;
+    for (int j = -k.radius; j <= k.radius; ++j)
+        for (int i = -k.radius; i <= k.radius; ++i) {
+            const Texel& t = whole(from.size()).contains(x + i, y + j) ? from(x + i, y + j) : clear;
+            const auto weight = static_cast<Number>(k.at(i)) * static_cast<Number>(k.at(j));
+            sum += weight * static_cast<Number>(Texel::channel_type::code(t.stored[channel]));
+        }
+    return sum;
+}
+
+} // namespace test

@@ -1,0 +1,41 @@
+// The kernels under test, as types: four shapes, any radius; and the same as plain numbers for oracles that know no template.
+#pragma once
+
+#include <gnomon/filter/kernel.hpp>
+
+#include <utility>
+#include <vector>
+
+namespace test {
+
+/// A kernel as numbers; `weights[radius + i]` counts for the texel i steps away.
+struct taps {
+    int radius;
+    int total;
+    std::vector<int> weights;
+
+    int at(int i) const { return weights[static_cast<std::size_t>(radius + i)]; }
+};
+template <gnomon::kernel K>
+taps taps_of() {
+    static_assert(gnomon::kernel_is_sound<K>());
+    return {K::radius, K::total, {K::weights.begin(), K::weights.end()}};
+}
+
+template <gnomon::kernel... Kernels>
+struct kernels {};
+
+/// Calls f.template operator()<Kernel>() for each.
+template <typename F, gnomon::kernel... Kernels>
+void for_each_kernel(kernels<Kernels...>, F&& f) {
+    (f.template operator()<Kernels>(), ...);
+}
+
+/// All four shapes at these radii.
+template <typename F, int... Radii>
+void for_each_shape(std::integer_sequence<int, Radii...>, F&& f) {
+    for_each_kernel(
+        kernels<gnomon::box<Radii>..., gnomon::tent<Radii>..., gnomon::binomial<Radii>..., gnomon::gaussian<Radii>...>{}, f);
+}
+
+} // namespace test

@@ -1,0 +1,240 @@
+// A texel: its memory, what clear, caster, cast and bound write, and what a missing effect takes away.
+#include <gnomon/texel/texel.hpp>
+
+#include "../support/bits.hpp"
+#include "../support/float_dice.hpp"
+#include "../support/formats.hpp"
+#include "../support/sweep.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+using namespace gnomon;
+using test::sweep;
+
+#define EVERY_TEXEL                                                                                                                                  \
+    rg8, rg16, rg16f, rg32f, rgb8, rgb16, rgb16f, rgb32f, rga8, rga32f, rgba8, rgba16, rgba16f, rgba32f, test::paper8, test::paper16, test::paper16f, \
+        test::paper32f, test::paper_rgba8, test::paper_rgba16, test::paper_rgba16f, test::paper_rgba32f
+#define EVERY_FULL_TEXEL rgba8, rgba16, rgba16f, rgba32f, test::paper_rgba8, test::paper_rgba16, test::paper_rgba16f, test::paper_rgba32f
+
+// Of the representation concept a model and two near misses. (Not in the unnamed namespace: nobody calls their members.)
+namespace representation_models {
+struct may_throw : depth_mask {
+    static constexpr bool behind(double, double, double) { return false; }
+};
+struct cannot_clear {
+    static constexpr double stored_depth(double z) noexcept { return z; }
+    template <typename Code> static constexpr bool nearer(Code a, Code b) noexcept { return a < b; }
+    static constexpr double complement(double d, double) noexcept { return d; }
+    static constexpr bool behind(double, double, double) noexcept { return false; }
+    template <channel Channel> static constexpr rounding_error depth_rounding() noexcept { return Channel::rounding; }
+};
+struct can_clear : cannot_clear {
+    static constexpr double clear_depth = 0.0;
+};
+} // namespace representation_models
+
+namespace {
+
+template <typename Texel> constexpr double number(const Texel& t, int index) {
+    return static_cast<double>(Texel::channel_type::decode(t.stored[index]));
+}
+
+template <typename T> concept has_opacity = requires(float v) { T::caster(v, v); };
+template <typename T> concept has_bound = requires(T t, float v) { t.bound(v); };
+
+// An effect that is off takes its members away, and only its own.
+static_assert(!has_opacity<rg8> && !has_bound<rg8>);
+static_assert(!has_opacity<rgb8> && has_bound<rgb8>);
+static_assert(has_opacity<rga8> && !has_bound<rga8>);
+static_assert(has_opacity<rgba8> && has_bound<rgba8>);
+static_assert(has_opacity<test::paper_rgba8> && !has_opacity<test::paper8> && !has_bound<test::paper8>);
+
+// Texel, not a struct that looks like one.
+struct looks_like_a_texel {
+    std::uint8_t stored[2];
+};
+static_assert(texel_format<rg8> && texel_format<test::paper_rgba32f>);
+static_assert(!texel_format<looks_like_a_texel> && !texel_format<const rg8> && !texel_format<rg8&> && !texel_format<std::uint8_t> && !texel_format<unorm8>);
+
+static_assert(representation<depth_mask> && representation<paper_depth_mask> && representation<representation_models::can_clear>);
+static_assert(!representation<representation_models::may_throw> && !representation<representation_models::cannot_clear>);
+static_assert(!representation<unorm8> && !representation<void>);
+
+// Memory: the channels in order, and nothing else.
+template <typename Texel> constexpr bool is_only_its_channels() {
+    return sizeof(Texel) == static_cast<std::size_t>(Texel::channels) * sizeof(typename Texel::storage) && alignof(Texel) == alignof(typename Texel::storage) &&
+           std::is_trivially_copyable_v<Texel> && std::is_standard_layout_v<Texel> && std::is_aggregate_v<Texel>;
+}
+template <typename... Texels> constexpr bool all_are_only_their_channels() { return (is_only_its_channels<Texels>() && ...); }
+static_assert(all_are_only_their_channels<EVERY_TEXEL>());
+static_assert(rg8::channels == 2 && rgb8::channels == 3 && rga8::channels == 3 && rgba8::channels == 4);
+static_assert(rgb8::far_index == 2 && rgb8::contribution_index == -1);
+static_assert(rga8::far_index == -1 && rga8::contribution_index == 2);
+static_assert(rgba8::far_index == 2 && rgba8::contribution_index == 3);
+static_assert(rg8::depth_index == 0 && rg8::mask_index == 1 && rg8::far_index == -1 && rg8::contribution_index == -1);
+
+// cast and bound at compile time.
+constexpr rgba8 a_bounded_caster() {
+    rgba8 t = rgba8::clear();
+    t.cast(rgba8::caster(0.8f, 1.0f));
+    t.cast(rgba8::caster(0.2f, 0.4f));
+    t.bound(0.6f);
+    return t;
+}
+static_assert(a_bounded_caster() == rgba8{{204, 255, 102, 102}});
+
+using all_effects_u8 = texel<unorm8, depth_mask, test::both>;
+static_assert(std::is_same_v<rgba8, all_effects_u8>); // the short names are names, not other types
+
+/// All casters that can be told apart in 8 bits by few numbers: depths and opacities with ends, neighbours and equals.
+template <typename Texel> std::vector<Texel> some_casters() {
+    std::vector<Texel> casters;
+    for (const float s : {0.0f, 1.0f / 255, 0.25f, 0.5f, 1.0f - 1.0f / 255, 1.0f})
+        if constexpr (Texel::effects.translucency)
+            for (const float opacity : {0.0f, 0.5f, 1.0f}) casters.push_back(Texel::caster(s, opacity));
+        else
+            casters.push_back(Texel::caster(s));
+    return casters;
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("a clear texel is all zero and the paper's is one where depths are", Texel, EVERY_TEXEL) {
+    const Texel clear = Texel::clear();
+    const bool complement = std::is_same_v<typename Texel::representation_type, depth_mask>;
+    for (int c = 0; c < Texel::channels; ++c) {
+        const bool depth = c == Texel::depth_index || c == Texel::far_index;
+        CHECK(test::equal(number(clear, c), depth && !complement ? 1.0 : 0.0));
+    }
+    CHECK(!clear.occupied());
+    if (complement) CHECK(clear == Texel{});
+}
+
+TEST_CASE_TEMPLATE("a caster stores its depth in its own way and a full mask", Texel, EVERY_TEXEL) {
+    using channel_type = typename Texel::channel_type;
+    const bool complement = std::is_same_v<typename Texel::representation_type, depth_mask>;
+    test::float_dice dice(4);
+    sweep wrong;
+    for (int i = 0; i < 10'000; ++i) {
+        const float s = dice.any_unit();
+        const Texel t = Texel::caster(s);
+        const double stored = complement ? 1.0 - static_cast<double>(s) : static_cast<double>(s);
+        bool good = t.stored[Texel::depth_index] >= channel_type::encode(stored) && t.stored[Texel::depth_index] <= channel_type::encode(stored);
+        good = good && t.occupied() && test::equal(number(t, Texel::mask_index), 1.0);
+        if constexpr (Texel::effects.far_bound) good = good && test::equal(number(t, Texel::far_index), number(Texel::clear(), Texel::far_index));
+        if constexpr (Texel::effects.translucency) good = good && test::equal(number(t, Texel::contribution_index), 1.0);
+        wrong.unless(good, "s", s);
+    }
+    CHECK(wrong.report() == "");
+}
+
+TEST_CASE_TEMPLATE("a caster outside of 0 to 1 is clamped and one at NaN is at the far plane", Texel, EVERY_TEXEL) {
+    for (const float s : {-test::infinity<float>, -1.0f, -test::smallest<float>, -0.0f}) CHECK(Texel::caster(s) == Texel::caster(0.0f));
+    for (const float s : {test::infinity<float>, 2.0f, test::up(1.0f), test::nan<float>}) CHECK(Texel::caster(s) == Texel::caster(1.0f));
+}
+
+TEST_CASE_TEMPLATE("opacity is stored as the contribution and changes nothing else", Texel, rga8, rga32f, EVERY_FULL_TEXEL) {
+    for (const float opacity : {0.0f, 0.25f, 1.0f, -1.0f, 7.0f, test::nan<float>}) {
+        Texel expected = Texel::caster(0.3f);
+        expected.stored[Texel::contribution_index] = Texel::channel_type::encode(static_cast<double>(opacity));
+        CHECK(Texel::caster(0.3f, opacity) == expected);
+    }
+}
+
+TEST_CASE_TEMPLATE("cast keeps the nearest of three casters in whichever order they come", Texel, EVERY_TEXEL) {
+    using representation_type = typename Texel::representation_type;
+    const auto wins = [](const Texel& a, const Texel& b) { // a before b: nearer, or as near and more opaque
+        if (representation_type::nearer(a.stored[Texel::depth_index], b.stored[Texel::depth_index])) return true;
+        if (representation_type::nearer(b.stored[Texel::depth_index], a.stored[Texel::depth_index])) return false;
+        if constexpr (Texel::effects.translucency) return a.stored[Texel::contribution_index] > b.stored[Texel::contribution_index];
+        return false;
+    };
+    const auto casters = some_casters<Texel>();
+    sweep wrong;
+    for (const Texel& a : casters)
+        for (const Texel& b : casters)
+            for (const Texel& c : casters) {
+                const std::array three{a, b, c};
+                const Texel winner = *std::min_element(three.begin(), three.end(), wins);
+                std::array order{0u, 1u, 2u};
+                do {
+                    Texel t = Texel::clear();
+                    for (const unsigned i : order) t.cast(three[i]);
+                    wrong.unless(t == winner, "order", order[0], order[1], order[2], "depths", a.stored[0], b.stored[0], c.stored[0]);
+                } while (std::next_permutation(order.begin(), order.end()));
+            }
+    CHECK(wrong.report() == "");
+}
+
+TEST_CASE_TEMPLATE("nothing cast on a caster changes it and nothing on nothing stays nothing", Texel, EVERY_TEXEL) {
+    for (const Texel& caster : some_casters<Texel>()) {
+        Texel t = caster;
+        t.cast(Texel::clear());
+        CHECK(t == caster);
+    }
+    Texel t = Texel::clear();
+    t.cast(Texel::clear());
+    CHECK(t == Texel::clear());
+}
+
+TEST_CASE("bound keeps the nearest receiver that is not before the caster for all triples of 8-bit depths") {
+    // in stored codes, where near is large: the largest of the receivers that are not larger than the caster
+    const auto at = [](int code) { return static_cast<float>((255 - code) / 255.0); };
+    sweep wrong;
+    for (int caster = 0; caster < 256; ++caster) {
+        const rgb8 alone = rgb8::caster(at(caster));
+        for (int a = 0; a < 256; ++a) {
+            rgb8 once = alone;
+            once.bound(at(a));
+            for (int b = 0; b < 256; ++b) {
+                rgb8 t = once;
+                t.bound(at(b));
+                const int nearest = greater(a <= caster ? a : 0, b <= caster ? b : 0);
+                wrong.unless(t == rgb8{{alone.stored[0], 255, static_cast<std::uint8_t>(nearest)}}, "caster", caster, "receivers", a, b);
+            }
+        }
+    }
+    CHECK(wrong.report() == "");
+}
+
+TEST_CASE_TEMPLATE("bound ignores receivers before the caster and texels without one", Texel, rgb8, rgb16, rgb16f, rgb32f, EVERY_FULL_TEXEL) {
+    Texel t = Texel::clear();
+    t.bound(0.5f);
+    CHECK(t == Texel::clear());
+
+    t = Texel::caster(0.5f);
+    for (const float before : {-1.0f, 0.0f, 0.25f, 0.49f, -test::infinity<float>}) t.bound(before);
+    CHECK(t == Texel::caster(0.5f));
+    for (const float far_plane : {1.0f, 2.0f, test::infinity<float>, test::nan<float>}) t.bound(far_plane);
+    CHECK(t == Texel::caster(0.5f));
+    t.bound(0.75f);
+    CHECK(test::equal(number(t, Texel::far_index), static_cast<double>(Texel::channel_type::decode(Texel::channel_type::encode(Texel::representation_type::stored_depth(0.75))))));
+    t.bound(0.5f); // what it lies on
+    CHECK(t.stored[Texel::far_index] == t.stored[Texel::depth_index]);
+}
+
+TEST_CASE_TEMPLATE("h11_far_bound_keeps_order: a receiver behind its caster is never stored before it", Texel, rgb8, rgb16, rgb16f, rgb32f, test::paper_rgba8,
+                   test::paper_rgba16f, test::paper_rgba32f) {
+    using representation_type = typename Texel::representation_type;
+    test::float_dice dice(11);
+    sweep wrong;
+    for (int i = 0; i < 300'000; ++i) {
+        const float s = i % 2 == 0 ? dice.unit() : dice.any_unit();
+        const float step = dice.any_unit() * (i % 3 == 0 ? 1.0f : 0x1p-12f);
+        const float f = lesser(s + step, 1.0f);
+        Texel t = Texel::caster(s);
+        t.bound(f);
+        const auto depth = t.stored[Texel::depth_index], bound = t.stored[Texel::far_index];
+        const auto receiver = Texel::channel_type::encode(representation_type::stored_depth(static_cast<double>(f)));
+        wrong.unless(!representation_type::nearer(bound, depth), "s", s, "f", f);
+        wrong.unless(bound >= receiver && bound <= receiver, "not stored: s", s, "f", f);
+    }
+    CHECK(wrong.report() == "");
+}

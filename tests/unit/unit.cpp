@@ -1,0 +1,53 @@
+// The smallest helpers, on the values that break helpers.
+#include <gnomon/unit.hpp>
+
+#include "../support/bits.hpp"
+#include "../support/sweep.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+using test::sweep;
+
+static_assert(test::same_bits(saturate(test::nan<float>), 0.0f) && test::same_bits(saturate(2.0), 1.0));
+
+TEST_CASE("saturate limits every number to 0 to 1 and takes NaN to 0") {
+    sweep wrong;
+    for (const float v : test::hostile_floats) {
+        const float expected = v >= 1.0f ? 1.0f : (v > 0.0f ? v : 0.0f);
+        wrong.unless(test::same_bits(saturate(v), expected), "float", v);
+        wrong.unless(test::same_bits(saturate(static_cast<double>(v)), static_cast<double>(expected)), "double", v);
+    }
+    CHECK(wrong.report() == "");
+}
+
+TEST_CASE("lesser and greater give the first of two that are equal or unordered") {
+    CHECK(lesser(1, 2) == 1);
+    CHECK(lesser(2, 1) == 1);
+    CHECK(greater(1, 2) == 2);
+    CHECK(greater(2, 1) == 2);
+    for (const auto pick : {lesser<float>, greater<float>}) {
+        CHECK(test::same_bits(pick(0.0f, -0.0f), 0.0f));
+        CHECK(test::same_bits(pick(-0.0f, 0.0f), -0.0f));
+        CHECK(test::same_bits(pick(3.0f, test::nan<float>), 3.0f));
+        CHECK(test::is_nan(pick(test::nan<float>, 3.0f)));
+    }
+}
+
+TEST_CASE("a depth interval is empty until something is included and then holds all of it") {
+    depth_interval depths;
+    CHECK(depths.empty());
+    depths.include({});
+    CHECK(depths.empty());
+    depths.include({0.5f, 0.5f});
+    CHECK(depths == depth_interval{0.5f, 0.5f});
+    depths.include({0.75f, 0.875f});
+    CHECK(depths == depth_interval{0.5f, 0.875f});
+    depths.include({0.25f, 0.625f});
+    CHECK(depths == depth_interval{0.25f, 0.875f});
+    depths.include({0.9f, 0.1f});
+    CHECK(depths == depth_interval{0.25f, 0.875f});
+    depths.include({test::nan<float>, 1.0f});
+    depths.include({0.0f, test::nan<float>});
+    CHECK(depths == depth_interval{0.25f, 0.875f});
+}
