@@ -1,3 +1,5 @@
+cmake_minimum_required(VERSION 3.25)
+
 # Compiles SOURCE twice with the command COMPILE, and wants both answers:
 #   -DGNOMON_EXPECT_FAILURE=0 compiles, so the file has no other reason to fail;
 #   -DGNOMON_EXPECT_FAILURE=1 does not, and says what the file's first line expects within the first errors.

@@ -71,8 +71,7 @@ template <int Radius, typename Number> constexpr weights_of<Radius> apportion(co
         std::size_t most = 1;
         for (std::size_t i = 2; i <= Radius; ++i)
             if (rest[i] > rest[most]) most = i;
-        if (Radius == 0 || rest[0] / 2 > rest[most]) most = 0;
-        share[most] += most == 0 ? 2 : 1;
+        ++share[most];
         rest[most] = 0.0;
     }
     weights_of<Radius> w{};
@@ -80,7 +79,7 @@ template <int Radius, typename Number> constexpr weights_of<Radius> apportion(co
     return w;
 }
 
-/// exp(-x) for x >= 0, to about 1e-15: the series at x / 2^k, squared k times. (No constexpr <cmath> in C++20.)
+/// exp(-x) for x >= 0, to 2e-15: the series at x / 2^k, squared k times. (No constexpr <cmath> in C++20.)
 constexpr double exp_minus(double x) {
     int halvings = 0;
     for (; x > 0.125; x /= 2) ++halvings;
@@ -94,7 +93,7 @@ constexpr double exp_minus(double x) {
 
 /// Every tap the same: 1 / (2R+1), exactly. Standard deviation sqrt(R(R+1)/3).
 template <int Radius> struct box {
-    static_assert(Radius >= 0, "gnomon: box<R>: R is the number of taps on each side of the centre");
+    static_assert(Radius >= 0 && Radius <= 4096, "gnomon: box<R>: R is the number of taps on each side of the centre, 0..4096");
     static constexpr int radius = Radius;
     static constexpr int total = 2 * Radius + 1;
     static constexpr auto weights = [] {
@@ -138,7 +137,7 @@ template <int Radius> struct binomial {
 /// The sampled normal distribution cut off at R, within 2^-16 a tap of its exact proportions.
 /// `SigmaPercent` is the standard deviation in percent of R: 50 leaves 14 % of the peak at the rim, 33 leaves 1 %.
 template <int Radius, int SigmaPercent = 50> struct gaussian {
-    static_assert(Radius >= 0, "gnomon: gaussian<R>: R is the number of taps on each side of the centre");
+    static_assert(Radius >= 0 && Radius <= 256, "gnomon: gaussian<R>: R is the number of taps on each side of the centre, 0..256");
     static_assert(SigmaPercent > 0, "gnomon: gaussian<R, SigmaPercent>: the standard deviation, in percent of R, must be positive");
     static constexpr int radius = Radius;
     static constexpr int total = kernel_total_limit;

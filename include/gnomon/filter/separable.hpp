@@ -103,7 +103,7 @@ void filter_region(std::type_identity_t<image_view<const Texel>> from, image_vie
     region = clip(clip(region, to.size()), from.size());
     [[maybe_unused]] const auto needed = filter_scratch_size<Texel, Kernel>(region.width());
     GNOMON_ASSERT(region.empty() || scratch.line().size() >= needed, "gnomon: the filter's scratch is narrower than the region; make it for the map's width");
-    // Too narrow a scratch only cuts the region into strips.
+    // Too narrow a scratch cuts the region into strips; one without room for a single texel leaves it alone.
     const int widest = static_cast<int>(scratch.line().size() / static_cast<std::size_t>(Texel::channels)) - 2 * Kernel::radius;
     if (region.empty() || widest <= 0) return;
     for (int x0 = region.x0; x0 < region.x1; x0 += widest) {

@@ -73,7 +73,7 @@ template <typename Word> struct basic_bit_row {
     [[nodiscard]] constexpr int next(int from, bit_word flip) const noexcept {
         for (int i = from; i < size; i = (i / bits_per_word + 1) * bits_per_word) {
             const bit_word left = (words[i / bits_per_word] ^ flip) >> (i % bits_per_word);
-            if (left != 0) return lesser(i + std::countr_zero(left), size);
+            if (left != 0) return i + std::countr_zero(left);
         }
         return size;
     }

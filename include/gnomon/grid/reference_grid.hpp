@@ -26,9 +26,11 @@ class reference_grid {
     static constexpr int side = 32;
     /// Texels at the map's edge that the engine never writes.
     static constexpr int border = 2;
+    /// The largest radius and margin that make a difference; more counts as this.
+    static constexpr int most = 1 << 20;
 
     /// `radius` is the engine's blur setting R; the blur reaches 2R texels. `margin` widens the guard; the engine uses 2.
-    reference_grid(extent map, int radius, int margin = 2) : map_(map), reach_(2 * lesser(greater(radius, 0), 1 << 20)), guard_(reach_ + margin), tiles_({side, side}, 1) {
+    reference_grid(extent map, int radius, int margin = 2) : map_(map), reach_(2 * lesser(greater(radius, 0), most)), guard_(reach_ + lesser(greater(margin, 0), most)), tiles_({side, side}, 1) {
         GNOMON_ASSERT(!map.empty(), "gnomon: reference_grid needs a map");
     }
 
@@ -47,7 +49,8 @@ class reference_grid {
 
     /// May the rectangle of a receiver lie in shadow?
     [[nodiscard]] bool receives(real_rect r) const noexcept {
-        if (!any_ || !(r.x1 >= box_.x0 - guard_ && r.y1 >= box_.y0 - guard_ && r.x0 <= box_.x1 + guard_ && r.y0 <= box_.y1 + guard_)) return false;
+        if (!any_ || !(r.x0 <= r.x1 && r.y0 <= r.y1)) return false;
+        if (!(r.x1 >= box_.x0 - guard_ && r.y1 >= box_.y0 - guard_ && r.x0 <= box_.x1 + guard_ && r.y0 <= box_.y1 + guard_)) return false;
         const tile_rect t = span_of(r);
         return tiles_.touches({t.x0, t.y0, t.x1, t.y1});
     }

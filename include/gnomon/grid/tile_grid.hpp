@@ -14,7 +14,7 @@ namespace gnomon {
 /// Casters mark their rectangles with a guard band as wide as the filter's radius; then the set tiles hold everything that the
 /// filter can make non-clear, and a receiver whose rectangle touches none of them is lit. Any map size and any tile size: a map
 /// that is no multiple of the tile has narrower tiles at its right and last edge. Texels map to tiles by integer division.
-/// Allocates in its constructor and never again.
+/// Allocates in its constructor and never again. One that was moved from may only be assigned to or destroyed.
 class tile_grid {
   public:
     tile_grid() = default;

@@ -1,0 +1,161 @@
+// The concept with a model and near misses, the stages with a backend that counts, and the scalar one against the free functions.
+#include <gnomon/backend/scalar.hpp>
+#include <gnomon/soft_shadow_map.hpp>
+
+#include "../support/bits.hpp"
+#include "../support/filtering.hpp"
+#include "../support/formats.hpp"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+namespace {
+using gnomon::backend_for;
+using gnomon::binomial;
+using gnomon::box;
+using gnomon::filter_scratch;
+using gnomon::image;
+using gnomon::image_view;
+using gnomon::rg8;
+using gnomon::rule;
+using gnomon::scalar;
+using gnomon::strided_span;
+using gnomon::texel_format;
+using gnomon::texel_rect;
+
+/// A backend of a user's: does what scalar does, and keeps count.
+struct counting : scalar {
+    struct counts {
+        std::vector<texel_rect> regions{};
+        int rows = 0;
+        int points = 0;
+    };
+    counts* seen = nullptr;
+
+    template <texel_format Texel, gnomon::kernel Kernel>
+    void filter_region(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
+                       filter_scratch<Texel, Kernel>& scratch) const noexcept {
+        seen->regions.push_back(region);
+        scalar::filter_region(from, to, region, scratch);
+    }
+    template <texel_format Texel>
+    void receive(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+                 const rule& r) const noexcept {
+        ++seen->rows;
+        scalar::receive(texels, z, intensity, r);
+    }
+    template <texel_format Texel>
+    void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
+                 strided_span<const float> z, strided_span<float> intensity, const rule& r) const noexcept {
+        seen->points += z.size();
+        scalar::receive(map, x, y, z, intensity, r);
+    }
+};
+
+} // namespace
+
+/// Only what they declare is asked, so they need no bodies.
+namespace near_miss {
+struct may_throw : scalar {
+    void filter_region(image_view<const rg8>, image_view<rg8>, texel_rect, filter_scratch<rg8, box<1>>&) const;
+};
+struct needs_state : scalar { // not const
+    void filter_region(image_view<const rg8>, image_view<rg8>, texel_rect, filter_scratch<rg8, box<1>>&) noexcept;
+};
+struct filters_only {
+    void filter_region(image_view<const rg8>, image_view<rg8>, texel_rect, filter_scratch<rg8, box<1>>&) const noexcept;
+};
+struct rows_only : filters_only {
+    void receive(strided_span<const rg8>, strided_span<const float>, strided_span<float>, const rule&) const noexcept;
+};
+struct only_rg8 : rows_only { // and that suffices
+    using rows_only::receive;
+    void receive(image_view<const rg8>, strided_span<const float>, strided_span<const float>, strided_span<const float>,
+                 strided_span<float>, const rule&) const noexcept;
+};
+} // namespace near_miss
+
+namespace {
+static_assert(backend_for<scalar, rg8, box<1>> && backend_for<scalar, gnomon::rgba32f, gnomon::gaussian<8>> &&
+              backend_for<scalar, test::paper8, binomial<3>>);
+static_assert(backend_for<counting, rg8, box<1>> && backend_for<near_miss::only_rg8, rg8, box<1>>);
+static_assert(!backend_for<near_miss::may_throw, rg8, box<1>> && !backend_for<near_miss::filters_only, rg8, box<1>> &&
+              !backend_for<near_miss::rows_only, rg8, box<1>> && !backend_for<near_miss::needs_state, rg8, box<1>>);
+static_assert(!backend_for<near_miss::only_rg8, gnomon::rg16, box<1>> && !backend_for<near_miss::only_rg8, rg8, box<2>> &&
+              !backend_for<scalar, int, box<1>> && !backend_for<scalar, rg8, int> && !backend_for<int, rg8, box<1>>);
+} // namespace
+
+TEST_CASE_TEMPLATE("the scalar backend is the free functions", Texel, rg8, gnomon::rgba16, gnomon::rgb16f, gnomon::rga32f,
+                   test::paper32f) {
+    test::dice roll(121);
+    const auto casters = test::noise<Texel>(roll, {40, 30}, 4);
+    const image<Texel> soft = test::dense<binomial<2>>(casters);
+    image<Texel> by_backend(soft.size(), Texel::caster(0.25f));
+    filter_scratch<Texel, binomial<2>> scratch(40);
+    scalar{}.filter_region(image_view<const Texel>(casters.view()), by_backend.view(), whole(soft.size()), scratch);
+    CHECK(test::differences(by_backend, soft) == 0);
+
+    std::vector<float> x, y, z, found(40), expected(40);
+    for (int i = 0; i < 40; ++i) {
+        x.push_back(40 * roll.unit());
+        y.push_back(30 * roll.unit());
+        z.push_back(roll.unit());
+    }
+    const rule unbiased = gnomon::rule_for<Texel>(gnomon::unbiased);
+    int wrong = 0;
+    scalar{}.receive(soft.view().row_span(7), strided_span<const float>(z), strided_span<float>(found), unbiased);
+    for (int i = 0; i < 40; ++i)
+        wrong += !test::same_bits(found[static_cast<std::size_t>(i)],
+                                  gnomon::shadow(soft(i, 7), z[static_cast<std::size_t>(i)], unbiased));
+    scalar{}.receive(soft.view(), strided_span<const float>(x), strided_span<const float>(y), strided_span<const float>(z),
+                     strided_span<float>(found), unbiased);
+    gnomon::receive(soft.view(), x, y, z, expected, unbiased);
+    for (std::size_t i = 0; i < 40; ++i)
+        wrong += !test::same_bits(found[i], expected[i]);
+    CHECK(wrong == 0);
+}
+
+TEST_CASE(
+    "filter hands its backend disjoint regions that cover the marked tiles, and the whole map if the guard band is too narrow") {
+    counting::counts seen;
+    counting run;
+    run.seen = &seen;
+    const image<rg8> casters({64, 48}, rg8::clear());
+    image<rg8> soft({64, 48}, rg8::clear());
+    filter_scratch<rg8, binomial<3>> scratch(64);
+    gnomon::tile_grid tiles({64, 48}, 16);
+    gnomon::filter(run, casters.view(), soft.view(), tiles, scratch);
+    CHECK(seen.regions.empty());
+    tiles.mark({4, 4, 8, 8}, 3);
+    tiles.mark({36, 36, 60, 44}, 3);
+    gnomon::filter(run, casters.view(), soft.view(), tiles, scratch);
+    CHECK(seen.regions == std::vector<texel_rect>{{0, 0, 16, 16}, {32, 32, 64, 48}});
+    seen.regions.clear();
+    tiles.mark({4, 4, 8, 8}, 2);
+    gnomon::filter(run, casters.view(), soft.view(), tiles, scratch);
+    CHECK(seen.regions == std::vector<texel_rect>{{0, 0, 64, 48}});
+}
+
+TEST_CASE("the facade runs on a backend of a user's, which sees each of its loops") {
+    counting::counts seen;
+    counting run;
+    run.seen = &seen;
+    gnomon::soft_shadow_map<gnomon::rg16, binomial<2>, counting> map({.width = 64, .height = 48, .tile = 16}, run);
+    gnomon::soft_shadow_map<gnomon::rg16, binomial<2>> same({.width = 64, .height = 48, .tile = 16});
+    map.cast({20, 20, 30, 30}, 0.5f);
+    same.cast({20, 20, 30, 30}, 0.5f);
+    map.filter();
+    same.filter();
+    CHECK(seen.regions == std::vector<texel_rect>{{16, 16, 32, 32}});
+    CHECK(test::differences<gnomon::rg16>(map.soft(), same.soft(), whole(map.size())) == 0);
+    const float z[3] = {0.9f, 0.9f, 0.9f}, x[3] = {1.0f, 25.0f, 19.5f};
+    float intensity[3];
+    map.receive(x, x, z, intensity);
+    map.receive_row(25, z, intensity);
+    CHECK(seen.points == 3);
+    CHECK(seen.rows == 1);
+}
+
+static_assert(sizeof(gnomon::soft_shadow_map<rg8, box<1>, scalar>) == sizeof(gnomon::soft_shadow_map<rg8, box<1>>),
+              "a backend without state costs no byte");

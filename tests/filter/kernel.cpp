@@ -1,0 +1,177 @@
+// Weights are judged by their definitions, in long double and with the standard library's own exponential.
+#include <gnomon/filter/kernel.hpp>
+
+#include "../support/kernels.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+namespace {
+using gnomon::binomial;
+using gnomon::box;
+using gnomon::gaussian;
+using gnomon::kernel;
+using gnomon::tent;
+
+using test::taps;
+using test::taps_of;
+
+template <template <int> typename Kernel, int... Radii>
+std::vector<taps> all(std::integer_sequence<int, Radii...>) {
+    return {taps_of<Kernel<Radii>>()...};
+}
+template <int Percent>
+struct bell {
+    template <int Radius>
+    using kernel = gaussian<Radius, Percent>;
+};
+using to_32 = std::make_integer_sequence<int, 33>;
+using to_30 = std::make_integer_sequence<int, 31>;
+const std::vector<taps> boxes = all<box>(to_32{}), tents = all<tent>(to_32{}), binomials = all<binomial>(to_30{});
+const std::vector<taps> narrow_bells = all<bell<33>::kernel>(to_32{}), bells = all<bell<50>::kernel>(to_32{}),
+                        wide_bells = all<bell<100>::kernel>(to_32{});
+
+long double variance(const taps& k) {
+    long double sum = 0;
+    for (int i = -k.radius; i <= k.radius; ++i)
+        sum += static_cast<long double>(k.at(i)) * i * i;
+    return sum / k.total;
+}
+
+/// Defects of the contract: every kernel is non-negative, symmetric, highest in the middle, and sums to a total that stays exact.
+int defects(const taps& k) {
+    int n = static_cast<int>(k.weights.size()) != 2 * k.radius + 1;
+    long sum = 0;
+    for (int i = -k.radius; i <= k.radius; ++i) {
+        n += k.at(i) < 0 || k.at(i) != k.at(-i);
+        n += i > 0 && k.at(i) > k.at(i - 1);
+        sum += k.at(i);
+    }
+    return n + (sum != k.total) + (k.total < 1 || k.total > 65536);
+}
+
+/// The largest difference of any weight from its exact share, in units of a weight.
+template <typename Exact>
+long double worst_weight(const taps& k, Exact&& exact) {
+    long double sum = 0, worst = 0;
+    for (int i = -k.radius; i <= k.radius; ++i)
+        sum += exact(i);
+    for (int i = -k.radius; i <= k.radius; ++i)
+        worst = std::max(worst, std::fabs(static_cast<long double>(k.at(i)) - exact(i) * k.total / sum));
+    return worst;
+}
+
+long double choose(int n, int k) {
+    long double product = 1;
+    for (int i = 1; i <= k; ++i)
+        product = product * (n - k + i) / i;
+    return std::round(product);
+}
+} // namespace
+
+TEST_CASE("every kernel is non-negative, symmetric, highest in the middle, and sums to its total, for radius 0 to 32") {
+    for (const auto* kernels : {&boxes, &tents, &binomials, &narrow_bells, &bells, &wide_bells})
+        for (const taps& k : *kernels) {
+            CAPTURE(k.radius);
+            CHECK(defects(k) == 0);
+        }
+}
+
+TEST_CASE("box, tent and the binomials up to 8 keep their proportions exactly") {
+    for (const taps& k : boxes)
+        CHECK(worst_weight(k, [](int) { return 1.0L; }) <= 0.0L);
+    for (const taps& k : tents)
+        CHECK(worst_weight(k, [&k](int i) { return static_cast<long double>(k.radius + 1 - std::abs(i)); }) <= 0.0L);
+    for (const taps& k : binomials)
+        if (k.radius <= 8)
+            CHECK(worst_weight(k, [&k](int i) { return choose(2 * k.radius, k.radius + i); }) <= 0.0L);
+}
+
+TEST_CASE("the wider binomials and the gaussians are within one unit in 65,536 of their proportions") {
+    long double worst = 0;
+    for (const taps& k : binomials)
+        if (k.radius > 8) {
+            CHECK(k.total == 65536);
+            worst = std::max(worst, worst_weight(k, [&k](int i) { return choose(2 * k.radius, k.radius + i); }));
+        }
+    for (const auto& [percent, kernels] : {std::pair{33, &narrow_bells}, {50, &bells}, {100, &wide_bells}})
+        for (const taps& k : *kernels) {
+            CHECK(k.total == 65536);
+            const long double sigma = std::max(k.radius, 1) * percent / 100.0L;
+            worst = std::max(worst, worst_weight(k, [sigma](int i) { return std::exp(-i * i / (2 * sigma * sigma)); }));
+        }
+    CHECK(worst < 1.0L);
+    CHECK(worst > 0.5L); // tight: apportioning to a fixed sum cannot do with half a unit
+}
+
+TEST_CASE("standard deviations are the stated ones") {
+    for (const taps& k : boxes)
+        CHECK(std::fabs(variance(k) - k.radius * (k.radius + 1) / 3.0L) < 1e-15L * (1 + k.radius * k.radius));
+    for (const taps& k : tents)
+        CHECK(std::fabs(variance(k) - k.radius * (k.radius + 2) / 6.0L) < 1e-15L * (1 + k.radius * k.radius));
+    for (const taps& k : binomials)
+        CHECK(std::fabs(variance(k) - k.radius / 2.0L) < (k.radius <= 8 ? 1e-15L * (1 + k.radius) : 0.01L));
+    CHECK(std::sqrt(variance(bells[32])) == doctest::Approx(0.88 * 16).epsilon(0.01)); // cutting off at two deviations takes 12 %
+}
+
+TEST_CASE("a gaussian of 50 percent keeps 14 percent of its peak at the rim, one of 33 keeps 1") {
+    CHECK(bells[32].at(32) * 100 / bells[32].at(0) == 13);
+    CHECK(narrow_bells[32].at(32) * 100 / narrow_bells[32].at(0) == 1);
+}
+
+TEST_CASE("exp_minus is the exponential to 2e-15") {
+    long double worst = 0;
+    for (int i = 0; i <= 60000; ++i) {
+        const double x = i / 1000.0;
+        worst = std::max(
+            worst, std::fabs(static_cast<long double>(gnomon::detail::exp_minus(x)) - std::exp(-static_cast<long double>(x))));
+    }
+    CHECK(worst < 2e-15L);
+    CHECK(worst > 1e-15L);
+    CHECK(gnomon::detail::exp_minus(0.0) >= 1.0);
+    CHECK(gnomon::detail::exp_minus(1e9) <= 0.0);
+}
+
+namespace {
+struct own { // what a user writes
+    static constexpr int radius = 1;
+    static constexpr int total = 10;
+    static constexpr std::array<int, 3> weights{3, 4, 3};
+};
+struct no_total {
+    static constexpr int radius = 1;
+    static constexpr std::array<int, 3> weights{3, 4, 3};
+};
+struct one_weight_short {
+    static constexpr int radius = 1;
+    static constexpr int total = 10;
+    static constexpr std::array<int, 2> weights{5, 5};
+};
+struct float_weights {
+    static constexpr int radius = 1;
+    static constexpr int total = 1;
+    static constexpr std::array<float, 3> weights{0.25f, 0.5f, 0.25f};
+};
+struct wide_total {
+    static constexpr int radius = 1;
+    static constexpr long total = 10;
+    static constexpr std::array<int, 3> weights{3, 4, 3};
+};
+static_assert(kernel<own> && gnomon::kernel_is_sound<own>());
+static_assert(no_total::weights.size() == 3 && wide_total::weights.size() == 3 && float_weights::weights.size() == 3 &&
+              one_weight_short::weights.size() == 2);
+static_assert(!kernel<no_total> && !kernel<one_weight_short> && !kernel<float_weights> && !kernel<wide_total> && !kernel<int>);
+
+// Known by heart.
+static_assert(box<2>::weights == std::array{1, 1, 1, 1, 1} && box<2>::total == 5);
+static_assert(tent<2>::weights == std::array{1, 2, 3, 2, 1} && tent<2>::total == 9);
+static_assert(binomial<2>::weights == std::array{1, 4, 6, 4, 1} && binomial<2>::total == 16);
+static_assert(gaussian<0>::weights == std::array{65536} && binomial<0>::weights == std::array{1});
+static_assert(tent<255>::total == gnomon::kernel_total_limit && gnomon::kernel_is_sound<tent<255>>());
+static_assert(gnomon::kernel_is_sound<gaussian<100, 25>>());
+} // namespace

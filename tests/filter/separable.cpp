@@ -1,0 +1,324 @@
+// The oracle convolves in two dimensions at once: unorm texels as exact fractions, half and float in long double.
+#include <gnomon/filter/sample.hpp>
+#include <gnomon/filter/separable.hpp>
+
+#include "../support/bits.hpp"
+#include "../support/filtering.hpp"
+#include "../support/formats.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace {
+using gnomon::binomial;
+using gnomon::box;
+using gnomon::extent;
+using gnomon::filter_scratch;
+using gnomon::gaussian;
+using gnomon::image;
+using gnomon::tent;
+using gnomon::texel_rect;
+using test::dense;
+using test::dice;
+using test::for_each_kernel;
+using test::for_each_texel;
+using test::kernels;
+
+using some_kernels = kernels<box<0>, box<1>, tent<2>, binomial<3>, binomial<9>, gaussian<5>>;
+
+/// Sizes that are smaller than most kernels, thin, empty and ordinary.
+constexpr extent sizes[] = {{0, 0}, {0, 4}, {5, 0}, {1, 1}, {1, 19}, {23, 1}, {3, 2}, {19, 13}};
+
+/// Everything that is not noise: nothing, all full, one texel, stripes, a disc, halves of two depths.
+template <gnomon::texel_format Texel>
+std::vector<image<Texel>> pictures(dice& roll, extent size) {
+    std::vector<image<Texel>> all{image<Texel>(size, Texel::clear()), image<Texel>(size, Texel::caster(0.0f)),
+                                  test::noise<Texel>(roll, size, 1), test::noise<Texel>(roll, size, 6)};
+    const auto draw = [&](auto&& covers) {
+        all.emplace_back(size, Texel::clear());
+        for_each_texel(whole(size), [&](int x, int y) {
+            if (covers(x, y))
+                all.back()(x, y) = Texel::caster(x < size.width / 2 ? 0.25f : 0.7f);
+        });
+    };
+    draw([&](int x, int y) { return x == size.width / 2 && y == size.height / 2; });
+    draw([](int x, int y) { return (x + y) % 2 == 0; });
+    draw([](int x, int) { return x % 3 == 0; });
+    draw([&](int x, int y) {
+        return (2 * x - size.width) * (2 * x - size.width) + (2 * y - size.height) * (2 * y - size.height) < 60;
+    });
+    return all;
+}
+
+template <typename Kernel, typename Texel>
+int not_the_rational_result(const image<Texel>& from) {
+    const test::taps k = test::taps_of<Kernel>();
+    const image<Texel> to = dense<Kernel>(from);
+    const auto total = static_cast<std::uint64_t>(k.total) * static_cast<std::uint64_t>(k.total);
+    int wrong = 0;
+    for_each_texel(whole(from.size()), [&](int x, int y) {
+        for (int c = 0; c < Texel::channels; ++c)
+            wrong += to(x, y).stored[c] !=
+                     (2 * test::convolved<std::uint64_t>(from, k, x, y, c) + total) / (2 * total); // halves upwards
+    });
+    return wrong;
+}
+
+/// The distance of two neighbours of the format around `v`.
+template <typename Channel>
+long double spacing(long double v) {
+    constexpr int digits = sizeof(typename Channel::storage) == 2 ? 11 : 24,
+                  least = sizeof(typename Channel::storage) == 2 ? -24 : -149;
+    int exponent = 0;
+    std::frexp(v, &exponent);
+    return std::ldexp(1.0L, std::max(exponent - digits, least));
+}
+} // namespace
+
+TEST_CASE_TEMPLATE("a filtered unorm map is the exact rational convolution, rounded once, halves upwards", Texel, gnomon::rg8,
+                   gnomon::rgb8, gnomon::rgba16, test::paper8, test::paper16) {
+    dice roll(61);
+    for (const extent size : sizes)
+        for (const image<Texel>& from : pictures<Texel>(roll, size))
+            for_each_kernel(some_kernels{}, [&]<typename Kernel>() { CHECK(not_the_rational_result<Kernel>(from) == 0); });
+}
+
+TEST_CASE("so it is for every shape and every radius to 16") {
+    dice roll(62);
+    const auto three_channels = test::noise<gnomon::rgb8>(roll, {11, 9}, 3);
+    const auto four_channels = test::noise<gnomon::rgba16>(roll, {11, 9}, 3);
+    test::for_each_shape(std::make_integer_sequence<int, 17>{}, [&]<typename Kernel>() {
+        CAPTURE(Kernel::radius);
+        CHECK(not_the_rational_result<Kernel>(three_channels) == 0);
+        CHECK(not_the_rational_result<Kernel>(four_channels) == 0);
+    });
+}
+
+TEST_CASE_TEMPLATE("a filtered half or float map is rounded once from a sum within 2^-35 of the exact one", Texel, gnomon::rg16f,
+                   gnomon::rgba16f, gnomon::rgb32f, test::paper16f, test::paper32f) {
+    using channel_type = typename Texel::channel_type;
+    dice roll(63);
+    long double worst = 0;
+    int wrong = 0;
+    for (const extent size : sizes)
+        for (const image<Texel>& from : pictures<Texel>(roll, size))
+            for_each_kernel(some_kernels{}, [&]<typename Kernel>() {
+                const test::taps k = test::taps_of<Kernel>();
+                const image<Texel> to = dense<Kernel>(from);
+                for_each_texel(whole(size), [&](int x, int y) {
+                    for (int c = 0; c < Texel::channels; ++c) {
+                        const long double exact = test::convolved<long double>(from, k, x, y, c) / k.total / k.total;
+                        const long double error =
+                            std::fabs(static_cast<long double>(channel_type::code(to(x, y).stored[c])) - exact);
+                        const long double ulp = spacing<channel_type>(exact);
+                        wrong += error > ulp / 2 + exact * 0x1p-35L;
+                        worst = std::max(worst, error / ulp);
+                    }
+                });
+            });
+    CHECK(wrong == 0);
+    CHECK(worst > 0.499L); // of an ulp: nothing closer can be promised
+}
+
+TEST_CASE_TEMPLATE("before its rounding, a float sum really uses the 2^-35 it is given", Channel, gnomon::float32) {
+    dice roll(64);
+    using Texel = gnomon::texel<Channel>;
+    long double worst = 0;
+    for (int i = 0; i < 4000; ++i) {
+        image<Texel> from({1, 3}, Texel::clear());
+        for (int y = 0; y < 3; ++y)
+            from(0, y) = Texel::caster(roll.unit());
+        std::vector<double> line(2 * 3);
+        gnomon::detail::sum_columns<box<1>, Texel>(from.view(), 1, -1, 2, line);
+        long double exact = 0;
+        for (int y = 0; y < 3; ++y)
+            exact += static_cast<long double>(from(0, y).stored[0]);
+        if (exact > 0)
+            worst = std::max(worst, std::fabs(static_cast<long double>(line[2]) - exact) / exact);
+    }
+    CHECK(worst <= 0x1p-36L);
+    worst = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const double v = 1.0 + static_cast<double>(roll.unit()) + static_cast<double>(roll.unit()) * 0x1p-24;
+        const double cut = gnomon::detail::to_36_bits(v);
+        worst =
+            std::max(worst, std::fabs(static_cast<long double>(cut) - static_cast<long double>(v)) / static_cast<long double>(v));
+        CHECK_FALSE(std::fabs(cut * 65535.0 - static_cast<double>(static_cast<long double>(cut) * 65535.0L)) >
+                    0.0); // the product is exact
+    }
+    CHECK(worst <= 0x1p-36L);
+    CHECK(worst > 0x1p-36L * 0.99L);
+}
+
+TEST_CASE_TEMPLATE("after any filter 0 <= e <= m, and no far bound lies before its caster (h11)", Texel, gnomon::rgb8,
+                   gnomon::rgba16, gnomon::rgb16f, gnomon::rgba32f) {
+    dice roll(65);
+    for (int i = 0; i < 30; ++i) {
+        const auto from = test::noise<Texel>(roll, {17, 14}, roll(1, 8));
+        for_each_kernel(some_kernels{}, [&]<typename Kernel>() {
+            const image<Texel> to = dense<Kernel>(from);
+            int wrong = 0;
+            for_each_texel(whole(to.size()), [&](int x, int y) {
+                const auto t = read(to(x, y));
+                wrong += !(0.0 <= t.far_bound() && t.far_bound() <= t.depth() && t.depth() <= t.mask() &&
+                           t.mask() <= static_cast<double>(Texel::channel_type::scale));
+            });
+            CHECK(wrong == 0);
+        });
+    }
+}
+
+TEST_CASE_TEMPLATE("clear is a fixed point of every filter, after 1000 passes too (h03)", Texel, gnomon::rg8, gnomon::rgba8,
+                   gnomon::rg16, gnomon::rg16f, gnomon::rgba16f, gnomon::rg32f, gnomon::rgba32f, test::paper8, test::paper16,
+                   test::paper16f, test::paper32f, test::paper_rgba8, test::paper_rgba32f) {
+    const image<Texel> clear({7, 5}, Texel::clear());
+    for_each_kernel(kernels<box<2>, tent<2>, binomial<9>, gaussian<5>>{}, [&]<typename Kernel>() {
+        image<Texel> map = clear;
+        for (int pass = 0; pass < 1000; ++pass)
+            map = dense<Kernel>(map);
+        CHECK(test::differences(map, clear) == 0);
+    });
+}
+
+TEST_CASE_TEMPLATE("a uniform region stays exactly itself, whatever it holds (h04)", Channel, gnomon::unorm8, gnomon::unorm16,
+                   gnomon::half16, gnomon::float32) {
+    using Texel = gnomon::texel<Channel>;
+    dice roll(66);
+    for_each_kernel(kernels<box<1>, tent<2>, tent<6>, binomial<9>, gaussian<5>, gaussian<9, 33>>{}, [&]<typename Kernel>() {
+        int wrong = 0;
+        constexpr int side = 2 * Kernel::radius + 3; // leaves 3 x 3 texels that see no edge
+        for (int i = 0; i < (Kernel::radius < 5 ? 1500 : 300); ++i) {
+            const Texel value = i < 256 ? Texel::caster(static_cast<float>(i) / 255.0f) : test::any_caster<Texel>(roll);
+            const image<Texel> from({side, side}, value), to = dense<Kernel>(from);
+            constexpr int r = Kernel::radius;
+            wrong += test::differences<Texel>(from.view(), to.view(), {r, r, side - r, side - r});
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE_TEMPLATE("the depth of a lone caster comes back from its whole penumbra, whatever the kernel's total (h04)", Texel,
+                   gnomon::rg8, gnomon::rg16, gnomon::rg32f) {
+    dice roll(67);
+    for_each_kernel(kernels<box<2>, tent<3>, binomial<4>, gaussian<5>>{}, [&]<typename Kernel>() {
+        int wrong = 0;
+        for (int i = 0; i < 40; ++i) {
+            image<Texel> from({24, 20}, Texel::clear());
+            const Texel caster = Texel::caster(roll.unit());
+            const double t = read(caster).depth() / static_cast<double>(Texel::channel_type::scale);
+            from.view().fill({8, 7, 15, 12}, caster);
+            const image<Texel> to = dense<Kernel>(from);
+            for_each_texel(whole(to.size()), [&](int x, int y) {
+                const auto f = read(to(x, y));
+                if (!(f.mask() > 0.0))
+                    return;
+                const double bound = Texel::channel_type::whole_codes ? (1.0 + t) / (2.0 * f.mask()) : t * 0x1p-22;
+                wrong += std::fabs(f.depth() / f.mask() - t) > bound * (1.0 + 1e-12);
+            });
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE_TEMPLATE("where no caster is in the footprint the result is clear, to the bit: nothing trails behind one (h06)", Texel,
+                   gnomon::rg8, gnomon::rgba16, gnomon::rg16f, gnomon::rgba32f, test::paper8, test::paper32f) {
+    dice roll(68);
+    for (int i = 0; i < 20; ++i) {
+        const auto from = test::noise<Texel>(roll, {30, 12}, 60);
+        for_each_kernel(kernels<box<1>, tent<2>, binomial<3>, gaussian<5>>{}, [&]<typename Kernel>() {
+            const image<Texel> to = dense<Kernel>(from);
+            int wrong = 0, far = 0;
+            for_each_texel(whole(to.size()), [&](int x, int y) {
+                bool any = false;
+                for_each_texel(
+                    clip({x - Kernel::radius, y - Kernel::radius, x + Kernel::radius + 1, y + Kernel::radius + 1}, to.size()),
+                    [&](int i2, int j2) { any = any || from(i2, j2).occupied(); });
+                if (any)
+                    return;
+                ++far;
+                wrong += !(to(x, y) == Texel::clear());
+            });
+            CHECK(wrong == 0);
+            CHECK(far + Kernel::radius * 40 > 20);
+        });
+    }
+}
+
+TEST_CASE_TEMPLATE("beyond the map's edge lies clear: a map equals the middle of a larger one with a clear margin (h14)", Texel,
+                   gnomon::rg8, gnomon::rgba16, gnomon::rgb16f, gnomon::rga32f, test::paper8, test::paper32f) {
+    dice roll(69);
+    for (const extent size : sizes) {
+        const auto from = test::noise<Texel>(roll, size, 2);
+        for_each_kernel(some_kernels{}, [&]<typename Kernel>() {
+            constexpr int r = Kernel::radius;
+            image<Texel> larger({size.width + 2 * r, size.height + 2 * r}, Texel::clear());
+            for_each_texel(whole(size), [&](int x, int y) { larger(x + r, y + r) = from(x, y); });
+            const image<Texel> expected = dense<Kernel>(larger), to = dense<Kernel>(from);
+            int wrong = 0;
+            for_each_texel(whole(size), [&](int x, int y) { wrong += !(to(x, y) == expected(x + r, y + r)); });
+            CHECK(wrong == 0);
+        });
+    }
+}
+
+TEST_CASE_TEMPLATE("a region is filtered as the whole map is, nothing outside it is written, and the scratch may hold anything",
+                   Texel, gnomon::rg8, gnomon::rgba16, gnomon::rgb16f, gnomon::rg32f) {
+    dice roll(70);
+    const image<Texel> untouched({29, 21}, Texel::caster(0.123f));
+    for (int i = 0; i < 60; ++i) {
+        const auto from = test::noise<Texel>(roll, untouched.size(), 3);
+        const texel_rect region = roll.rect(untouched.size(), 10);
+        for_each_kernel(some_kernels{}, [&]<typename Kernel>() {
+            image<Texel> to = untouched, expected = untouched;
+            filter_scratch<Texel, Kernel> scratch(from.size().width);
+            const int rubbish = roll.one_in(2) ? 0xFF : 0x41;
+            std::memset(scratch.line().data(), rubbish, scratch.line().size_bytes());
+            gnomon::filter_region(from.view(), to.view(), region, scratch);
+            const image<Texel> all = dense<Kernel>(from);
+            for_each_texel(clip(region, from.size()), [&](int x, int y) { expected(x, y) = all(x, y); });
+            CHECK(test::differences(to, expected) == 0);
+        });
+    }
+}
+
+TEST_CASE("images of different sizes share what both have; an empty one shares nothing") {
+    dice roll(71);
+    const auto from = test::noise<gnomon::rg16>(roll, {12, 9}, 2);
+    const auto expected = dense<binomial<2>>(from);
+    filter_scratch<gnomon::rg16, binomial<2>> scratch(40);
+    for (const extent size : {extent{0, 0}, {1, 1}, {12, 3}, {5, 9}, {40, 30}}) {
+        image<gnomon::rg16> to(size, gnomon::rg16::caster(0.5f));
+        gnomon::filter_region(from.view(), to.view(), {-100, -100, 100, 100}, scratch);
+        int wrong = 0;
+        for_each_texel(whole(size), [&](int x, int y) {
+            wrong += !(to(x, y) == (whole(from.size()).contains(x, y) ? expected(x, y) : gnomon::rg16::caster(0.5f)));
+        });
+        CHECK(wrong == 0);
+    }
+}
+
+#ifdef NDEBUG
+TEST_CASE_TEMPLATE("without asserts, too narrow a scratch only cuts the region into strips", Texel, gnomon::rg8,
+                   gnomon::rgba32f) {
+    dice roll(72);
+    const auto from = test::noise<Texel>(roll, {31, 8}, 3);
+    for (int width = 1; width <= 31; ++width)
+        for_each_kernel(some_kernels{}, [&]<typename Kernel>() {
+            image<Texel> to(from.size());
+            filter_scratch<Texel, Kernel> scratch(width);
+            gnomon::filter_region(from.view(), to.view(), whole(from.size()), scratch);
+            CHECK(test::differences(to, dense<Kernel>(from)) == 0);
+        });
+}
+
+TEST_CASE("without asserts, a scratch of nothing filters nothing") {
+    const image<gnomon::rg8> from({4, 4}, gnomon::rg8::caster(0.5f));
+    image<gnomon::rg8> to({4, 4}, gnomon::rg8::clear());
+    filter_scratch<gnomon::rg8, box<1>> none;
+    gnomon::filter_region(from.view(), to.view(), whole(to.size()), none);
+    CHECK(test::differences(to, image<gnomon::rg8>({4, 4}, gnomon::rg8::clear())) == 0);
+}
+#endif
