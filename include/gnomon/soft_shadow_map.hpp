@@ -50,12 +50,25 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
         cast_texel(r, s, Texel::caster(s, opacity));
     }
 
-    /// For casters that you rasterise yourself: write into this image with Texel::cast, and mark what you wrote.
+    /// Casts what `draw` writes into the image it is given, with Texel::cast; it returns what it touched, as cast_triangles does:
+    ///     map.cast([&](auto texels) { return cast_triangles(texels, mesh, light); });
+    template <typename Draw>
+        requires requires(Draw& draw, image_view<Texel> texels) {
+            { draw(texels).texels } -> std::convertible_to<texel_rect>;
+            { draw(texels).depth } -> std::convertible_to<depth_interval>;
+        }
+    void cast(Draw&& draw) {
+        const auto touched = draw(casters());
+        mark(touched.texels, touched.depth);
+    }
+
+    /// The map of casters, for an engine that keeps its own order. What it writes and does not mark is neither filtered nor cleared.
     [[nodiscard]] image_view<Texel> casters() noexcept { return casters_.view(); }
-    /// Says that `r` now holds casters in `depth`. Whatever is written and not marked is neither filtered nor cleared.
+    /// Says that `r` now holds casters in `depth`.
     void mark(texel_rect r, depth_interval depth) noexcept { tiles_.mark(r, depth, Kernel::radius); }
 
-    /// A receiver at depth `z` ends the shadow of the casters before it. After all casters, before `filter`.
+    /// A receiver at depth `z` ends the shadow of the casters before it. After all casters, before `filter`. (For meshes:
+    /// bound_triangles into `casters()`.)
     void bound(texel_rect r, float z) noexcept
         requires(Texel::effects.far_bound)
     {

@@ -108,7 +108,7 @@ TEST_CASE("casting nothing leaves a lit map: empty, inverted and far away rectan
     CHECK(test::equal(map.shadow(20, 15, 0.6f), 1.0f));
 }
 
-TEST_CASE("a caster of no depth lies at the far plane, one beyond the planes on them; a receiver of no depth is lit") {
+TEST_CASE("a caster of no depth lies at the far plane, one beyond the planes on them, and a receiver of no depth is lit") {
     struct given {
         float depth, as;
     };

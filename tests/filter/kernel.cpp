@@ -105,7 +105,7 @@ TEST_CASE("the wider binomials and the gaussians are within one unit in 65,536 o
             const long double sigma = std::max(k.radius, 1) * percent / 100.0L;
             worst = std::max(worst, worst_weight(k, [sigma](int i) { return std::exp(-i * i / (2 * sigma * sigma)); }));
         }
-    CHECK(worst < 1.0L);
+    CHECK(worst <= 1.0L); // reached: binomial<9>'s centre is whole, and what is left for the pairs is odd
     CHECK(worst > 0.5L); // tight: apportioning to a fixed sum cannot do with half a unit
 }
 

@@ -284,7 +284,7 @@ TEST_CASE_TEMPLATE("a region is filtered as the whole map is, nothing outside it
     }
 }
 
-TEST_CASE("images of different sizes share what both have; an empty one shares nothing") {
+TEST_CASE("images of different sizes share what both have, and an empty one shares nothing") {
     dice roll(71);
     const auto from = test::noise<gnomon::rg16>(roll, {12, 9}, 2);
     const auto expected = dense<binomial<2>>(from);

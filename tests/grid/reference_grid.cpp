@@ -262,7 +262,7 @@ TEST_CASE("a cleared reference grid is a new one") {
     CHECK(rects_of(grid) == std::vector<tile_rect>{{14, 14, 18, 18}});
 }
 
-TEST_CASE("V05, V06: an upper edge on a tile border takes the next tile in the engine; in a tile_grid it takes none it does not "
+TEST_CASE("V05, V06: an upper edge on a tile border takes the next tile in the engine, and in a tile_grid it takes none it does not "
           "touch") {
     for (const char* name : {"V05", "V06"}) {
         const auto v = vector_named(name);
@@ -276,7 +276,7 @@ TEST_CASE("V05, V06: an upper edge on a tile border takes the next tile in the e
     }
 }
 
-TEST_CASE("V08: a caster just off the map throws its penumbra in; the engine drops it, a tile_grid marks where it enters") {
+TEST_CASE("V08: a caster just off the map throws its penumbra in: the engine drops it, a tile_grid marks where it enters") {
     const auto v = vector_named("V08");
     CHECK(with_casters(v).tiles().empty());
     gnomon::tile_grid grid({512, 512}, 16);
@@ -284,7 +284,7 @@ TEST_CASE("V08: a caster just off the map throws its penumbra in; the engine dro
     CHECK(grid.touches({0, 100, 10, 130}));
 }
 
-TEST_CASE("V07: a receiver off the map is pulled to the edge tiles by the engine; a tile_grid knows that it is lit") {
+TEST_CASE("V07: a receiver off the map is pulled to the edge tiles by the engine, and a tile_grid knows that it is lit") {
     const auto v = vector_named("V07");
     gnomon::tile_grid grid({512, 512}, 16);
     for (const auto& caster : v.at("casters")) {

@@ -62,7 +62,7 @@ struct scene {
 };
 } // namespace
 
-TEST_CASE_TEMPLATE("a receiver that is culled is lit at every texel and between them; and many are culled", Texel, gnomon::rg16,
+TEST_CASE_TEMPLATE("a receiver that is culled is lit at every texel and between them, and many are culled", Texel, gnomon::rg16,
                    gnomon::rg32f, gnomon::rg8) {
     dice roll(111);
     constexpr gnomon::rule careful = gnomon::default_rule<Texel>, exact = gnomon::rule_for<Texel>(gnomon::unbiased);
@@ -104,7 +104,7 @@ TEST_CASE("the texel beside a footprint counts, because a blended sample reads i
     CHECK_FALSE(gnomon::casters_reach(tiles, {-4, 40, -1, 41}));
 }
 
-TEST_CASE("a receiver of unknown depth is culled by tiles alone; one at a caster's depth is lit") {
+TEST_CASE("a receiver of unknown depth is culled by tiles alone, and one at a caster's depth is lit") {
     depth_tiles tiles({64, 64}, 8);
     tiles.mark({16, 16, 24, 24}, {0.25f, 0.75f}, 3);
     constexpr texel_rect here{18, 18, 20, 20}, elsewhere{40, 40, 50, 50};

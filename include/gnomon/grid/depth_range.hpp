@@ -34,6 +34,8 @@ class depth_tiles {
         return tiles_.test(column, row) ? depths_[index(column, row)] : depth_interval{};
     }
 
+    /// Does `r` touch a marked tile?
+    [[nodiscard]] bool touches(texel_rect r) const noexcept { return tiles_.touches(r); }
     /// Could a caster of a tile that `r` touches be nearer to the light than `z`? NaN: no.
     [[nodiscard]] bool touches(texel_rect r, float z) const noexcept {
         const tile_rect t = tiles_.tiles_of(intersection(r, tiles_.bounds()));

@@ -31,17 +31,22 @@ struct bias {
 /// What the rounding of a caster's own depth can do, and 2^-24 for the receiver's subtraction in float.
 template <texel_format Texel> inline constexpr float caster_depth_error = Texel::channel_type::max_error + 0x1p-24f;
 
+/// The bias of a texel format in a given direction, for maps that gnomon filtered.
+template <texel_format Texel> [[nodiscard]] constexpr bias bias_for(bias_towards direction) noexcept {
+    return {direction, 1, direction == bias_towards::none ? 0.0f : caster_depth_error<Texel>};
+}
+
 /// No false shadow for any caster depth s and receiver z <= s. Shadow is kept, with q = 2 max_error, for every z beyond
 ///     unorm   s + q (1+r+q)/m + q, where r = max(1-z, 0)
 ///     half    s + 6 q, for m >= 2^-10
 ///     float   s + 16 q
-template <texel_format Texel> inline constexpr bias towards_light{bias_towards::light, 1, caster_depth_error<Texel>};
+template <texel_format Texel> inline constexpr bias towards_light = bias_for<Texel>(bias_towards::light);
 
 /// Exactly what is stored.
 inline constexpr bias unbiased{bias_towards::none, 1, 0.0f};
 
 /// No light for any z > s. Shadow may begin before the caster, by as much as towards_light loses behind it.
-template <texel_format Texel> inline constexpr bias towards_shadow{bias_towards::shadow, 1, caster_depth_error<Texel>};
+template <texel_format Texel> inline constexpr bias towards_shadow = bias_for<Texel>(bias_towards::shadow);
 
 /// The pair (e, m) and the receiver z, each moved to the favoured end of what it may have been before it was rounded.
 struct biased {

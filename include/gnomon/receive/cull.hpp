@@ -12,7 +12,7 @@ namespace gnomon {
 /// here knows the true depths, so what it removes is never a true shadow. An empty interval has unknown depth and is not culled by it.
 [[nodiscard]] inline bool casters_reach(const depth_tiles& tiles, texel_rect footprint, depth_interval depth = {}) noexcept {
     const texel_rect read = grow(footprint, 1);
-    return depth.empty() ? tiles.tiles().touches(read) : tiles.touches(read, depth.farthest);
+    return depth.empty() ? tiles.touches(read) : tiles.touches(read, depth.farthest);
 }
 [[nodiscard]] inline bool casters_reach(const tile_grid& tiles, texel_rect footprint) noexcept { return tiles.touches(grow(footprint, 1)); }
 
