@@ -7,27 +7,27 @@
 using namespace gnomon;
 
 int main() {
-    using texel = rg16;         // 16-bit depth and mask
-    using kernel = gaussian<4>; // 9 x 9 taps
+    using pair = rg16;        // 16-bit depth and mask
+    using blur = gaussian<4>; // 9 x 9 taps
     constexpr extent size{640, 360};
 
     // The engine's memory, with a row pitch of its own.
     constexpr int pitch = 704;
-    std::vector<texel> caster_memory(pitch * size.height, texel::clear()), soft_memory(pitch * size.height, texel::clear());
-    const image_view<texel> casters(caster_memory.data(), size, pitch * sizeof(texel));
-    const image_view<texel> soft(soft_memory.data(), size, pitch * sizeof(texel));
+    std::vector<pair> caster_memory(pitch * size.height, pair::clear()), soft_memory(pitch * size.height, pair::clear());
+    const image_view<pair> casters(caster_memory.data(), size, pitch * sizeof(pair));
+    const image_view<pair> soft(soft_memory.data(), size, pitch * sizeof(pair));
 
     // encode, mark: a disc at depth 0.25, and the kernel's radius around it
     depth_tiles tiles(size, 32);
     constexpr texel_rect disc{270, 130, 370, 230};
     for (int y = disc.y0; y < disc.y1; ++y)
         for (int x = disc.x0; x < disc.x1; ++x)
-            if ((x - 320) * (x - 320) + (y - 180) * (y - 180) < 50 * 50) casters(x, y).cast(texel::caster(0.25f));
-    tiles.mark(disc, {.nearest = 0.25f, .farthest = 0.25f}, kernel::radius);
+            if ((x - 320) * (x - 320) + (y - 180) * (y - 180) < 50 * 50) casters(x, y).cast(pair::caster(0.25f));
+    tiles.mark(disc, {.nearest = 0.25f, .farthest = 0.25f}, blur::radius);
 
     // blur: marked tiles only
-    filter_scratch<texel, kernel> scratch(size.width);
-    filter(scalar{}, casters, soft, tiles.tiles(), scratch);
+    filter_scratch<pair, blur> scratch(size.width);
+    filter(scalar{}, casters, soft, tiles, scratch);
     int area = 0;
     for_each_region(tiles.tiles(), [&area](texel_rect r) { area += r.width() * r.height(); });
     std::printf("filtered %d of %d texels\n", area, size.width * size.height);

@@ -28,7 +28,7 @@ template <gnomon::texel_format Texel>
 answer answer_in(const std::string& format, const std::string& bits, const scene& s, const variant& how, const mesh& m,
                  const gnomon::light_frame& frame, const receivers& points) {
     gnomon::soft_shadow_map<Texel, soft_kernel> map({.width = map_extent.width, .height = map_extent.height, .tile = tile_size});
-    map.decision = gnomon::rule_for<Texel>(gnomon::bias_for<Texel>(how.towards));
+    map.decision = gnomon::rule{.caster = {.towards = how.towards}};
 
     for (const caster& c : s.casters)
         map.cast([&](auto texels) {
@@ -37,10 +37,10 @@ answer answer_in(const std::string& format, const std::string& bits, const scene
             else
                 return cast_triangles(texels, triangles(m, c), frame);
         });
-    if constexpr (Texel::effects.far_bound) {
-        const auto casts = [&map](gnomon::texel_rect r) { return map.tiles().touches(r); };
-        bound_triangles(map.casters(), static_triangles(s).view(), frame, gnomon::faces::away_from_light, casts);
-    }
+    if constexpr (Texel::effects.far_bound)
+        map.bound([&](auto texels) {
+            bound_triangles(texels, static_triangles(s).view(), frame, gnomon::faces::dark_side, map.tiles());
+        });
 
     answer result{.format = format,
                   .bits = bits,

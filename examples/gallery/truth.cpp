@@ -89,7 +89,7 @@ exact_map exact_map_of(const scene& s, const mesh& m, const gnomon::light_frame&
             if (depth < t.s) t = {depth, c.opacity};
         });
     if (s.bounded)
-        rasterize(static_triangles(s).view(), frame, everywhere, gnomon::faces::away_from_light, [&](int x, int y, float depth) {
+        rasterize(static_triangles(s).view(), frame, everywhere, gnomon::faces::dark_side, [&](int x, int y, float depth) {
             exact_texel& t = map(x, y);
             if (depth >= t.s) t.far_bound = (std::min)(t.far_bound, depth);
         });

@@ -11,7 +11,7 @@
 #endif
 
 // NaN must compare false and a difference must not be reassociated: both decide whether a receiver is lit.
-#if (defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)) && !defined(GNOMON_ALLOW_FAST_MATH)
+#if (defined(__FAST_MATH__) || defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)) && !defined(GNOMON_ALLOW_FAST_MATH)
 #error "gnomon: -ffast-math and -ffinite-math-only break NaN handling and exact decisions. Compile the file that includes gnomon \
 without them, or define GNOMON_ALLOW_FAST_MATH and accept that no bound is promised."
 #endif

@@ -4,6 +4,8 @@
 #include <gnomon/backend/scalar.hpp>
 #include <gnomon/receive/cull.hpp>
 
+#include <concepts>
+
 namespace gnomon {
 
 /// The size of a soft_shadow_map, in texels. Tiles of 16 to 64 texels serve most maps. An empty map is lit everywhere.
@@ -13,7 +15,14 @@ struct map_size {
     int tile = 32;
 };
 
-/// A soft shadow map: clear, cast, bound, filter, shadow; and the next frame the same (seed 000).
+/// What draws casters: a callable that writes into the image it is given and returns what it touched, `texels` and `depth`.
+template <typename Draw, typename Texel>
+concept draws_casters = requires(Draw& draw, image_view<Texel> into) {
+    { draw(into).texels } -> std::convertible_to<texel_rect>;
+    { draw(into).depth } -> std::convertible_to<depth_interval>;
+};
+
+/// A soft shadow map: clear, cast, bound, filter, shadow; and the next frame the same (Salzman 2007).
 ///
 ///     soft_shadow_map<rg8, binomial<3>> map({.width = 512, .height = 512});
 ///     each frame:  map.clear();  map.cast(...);  map.filter();  ... map.shadow(x, y, z) ...
@@ -27,7 +36,7 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
           tiles_({size.width, size.height}, size.tile), filtered_(tiles_.tiles()), scratch_(size.width) {}
 
     /// How `shadow` and `receive` decide; no false shadow unless you say otherwise.
-    rule decision = default_rule<Texel>;
+    rule decision{};
 
     [[nodiscard]] extent size() const noexcept { return casters_.size(); }
     /// Where shadows may lie, this frame.
@@ -52,12 +61,7 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
 
     /// Casts what `draw` writes into the image it is given, with Texel::cast; it returns what it touched, as cast_triangles does:
     ///     map.cast([&](auto texels) { return cast_triangles(texels, mesh, light); });
-    template <typename Draw>
-        requires requires(Draw& draw, image_view<Texel> texels) {
-            { draw(texels).texels } -> std::convertible_to<texel_rect>;
-            { draw(texels).depth } -> std::convertible_to<depth_interval>;
-        }
-    void cast(Draw&& draw) {
+    template <draws_casters<Texel> Draw> void cast(Draw&& draw) {
         const auto touched = draw(casters());
         mark(touched.texels, touched.depth);
     }
@@ -67,27 +71,41 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
     /// Says that `r` now holds casters in `depth`.
     void mark(texel_rect r, depth_interval depth) noexcept { tiles_.mark(r, depth, Kernel::radius); }
 
-    /// A receiver at depth `z` ends the shadow of the casters before it. After all casters, before `filter`. (For meshes:
-    /// bound_triangles into `casters()`.)
+    /// A receiver at depth `z` ends the shadow of the casters before it. After all casters, before `filter`.
     void bound(texel_rect r, float z) noexcept
         requires(Texel::effects.far_bound)
     {
         for_each_region(tiles_.tiles(), [&](texel_rect tile) { edit(intersection(r, tile), [z](Texel& t) { t.bound(z); }); });
     }
+    /// The same for what `draw` bounds in the image it is given, with Texel::bound:
+    ///     map.bound([&](auto texels) { bound_triangles(texels, ground, light, faces::both, map.tiles()); });
+    template <typename Draw>
+        requires(Texel::effects.far_bound) && std::invocable<Draw&, image_view<Texel>>
+    void bound(Draw&& draw) {
+        draw(casters());
+    }
 
     /// Blurs what was cast into the map that `shadow` reads.
     void filter() noexcept {
         clear_tiles(soft_.view(), filtered_);
-        gnomon::filter(run_, casters_.view(), soft_.view(), tiles_.tiles(), scratch_);
+        gnomon::filter(run_, casters_.view(), soft_.view(), tiles_, scratch_);
         filtered_ = tiles_.tiles();
     }
 
-    /// Intensity at the centre of a texel, for a receiver at depth `z`; 0 off the map.
+    /// Intensity at the centre of texel (x, y), for a receiver at depth `z`; 0 off the map.
     [[nodiscard]] float shadow(int x, int y, float z) const noexcept {
         return whole(size()).contains(x, y) ? gnomon::shadow(soft()(x, y), z, decision) : 0.0f;
     }
-    /// Intensity at a point in texels, blended from four.
-    [[nodiscard]] float sample(float x, float y, float z) const noexcept { return gnomon::shadow(gnomon::sample(soft(), x, y), z, decision); }
+    /// A position is not a texel: ask shadow_at.
+    template <std::floating_point X, std::floating_point Y> float shadow(X x, Y y, float z) const = delete;
+    /// Intensity at a position in texels, blended from four; 0 off the map.
+    [[nodiscard]] float shadow_at(float x, float y, float z) const noexcept { return gnomon::shadow(sample(soft(), x, y), z, decision); }
+    /// The same for a map_point or anything else with x, y and depth.
+    template <typename Point>
+        requires requires(const Point& p) { static_cast<float>(p.x + p.y + p.depth); }
+    [[nodiscard]] float shadow_at(const Point& p) const noexcept {
+        return shadow_at(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.depth));
+    }
     /// Many points at once.
     void receive(strided_span<const float> x, strided_span<const float> y, strided_span<const float> z, strided_span<float> intensity) const noexcept {
         run_.receive(soft(), x, y, z, intensity, decision);
@@ -99,7 +117,9 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
     }
 
     /// Could a receiver with these texels and depths be shadowed at all? If not, draw it without shadow code.
-    [[nodiscard]] bool reaches(texel_rect footprint, depth_interval depth = {}) const noexcept { return casters_reach(tiles_, footprint, depth); }
+    [[nodiscard]] bool reaches(texel_rect footprint, depth_interval depth = {}) const noexcept {
+        return casters_reach(tiles_, footprint, depth, decision.caster.towards);
+    }
 
   private:
     template <typename F> void edit(texel_rect r, F&& f) noexcept {

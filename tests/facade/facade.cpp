@@ -37,6 +37,29 @@ bool same_bits_in(const Map& a, const Map& b) {
     return a.size() == b.size() && test::differences(a.soft(), b.soft(), whole(a.size())) == 0;
 }
 
+/// Draws a caster of two depths texel by texel, as a host's rasteriser does, and says what it touched.
+template <typename Texel>
+struct drawing {
+    struct touched {
+        texel_rect texels;
+        gnomon::depth_interval depth;
+    };
+    texel_rect where;
+    float depth;
+    int calls = 0;
+
+    touched operator()(gnomon::image_view<Texel> texels) {
+        ++calls;
+        const texel_rect drawn = clip(where, texels.size());
+        test::for_each_texel(drawn, [&](int x, int y) { texels(x, y).cast(Texel::caster(x % 2 == 0 ? depth : depth / 2)); });
+        return {drawn, {depth / 2, depth}};
+    }
+};
+template <typename Map, typename Draw>
+concept can_cast = requires(Map& map, Draw draw) {
+    map.cast(draw);
+};
+
 /// One caster for certain, a few at random, and a ground where the format has one.
 template <typename Map>
 void populate(Map& map, dice& roll) {
@@ -77,7 +100,7 @@ TEST_CASE_TEMPLATE("maps of nothing, of one texel, of one row, and smaller than 
                     test::for_each_texel(whole(map.size()), [&](int x, int y) { casters(x, y).bound(0.9f); });
                 CHECK(test::differences<Texel>(map.soft(), test::dense<gnomon::gaussian<16>>(casters).view(),
                                                whole(map.size())) == 0);
-                CHECK(test::equal(map.sample(0.5f, 0.5f, 0.8f), map.shadow(0, 0, 0.8f)));
+                CHECK(test::equal(map.shadow_at(0.5f, 0.5f, 0.8f), map.shadow(0, 0, 0.8f)));
                 CHECK(map.reaches({0, 0, 1, 1}, {0.7f, 0.8f}) == !size.empty());
                 const float z[2] = {0.8f, 0.8f};
                 float intensity[2] = {7.0f, 7.0f};
@@ -164,6 +187,45 @@ TEST_CASE_TEMPLATE("a far bound ends the shadow at the first receiver, and only 
     CHECK(map.shadow(15, 15, 0.7f) < 0.9f);
 }
 
+static_assert(can_cast<map_of<gnomon::rg8>, drawing<gnomon::rg8>> && !can_cast<map_of<gnomon::rg8>, drawing<gnomon::rg16>>);
+static_assert(!can_cast<map_of<gnomon::rg8>, void (*)(gnomon::image_view<gnomon::rg8>)>, "who draws says what was touched");
+
+TEST_CASE_TEMPLATE("what is drawn into cast is what casters and mark make by hand, and clear forgets all of it", Texel,
+                   gnomon::rg8, gnomon::rgba16, gnomon::rgb16f, test::paper32f) {
+    dice roll(146);
+    map_of<Texel> map({.width = 50, .height = 40, .tile = 8}), by_hand = map;
+    for (int frame = 0; frame < 30; ++frame) {
+        gnomon::image<Texel> all(map.size(), Texel::clear());
+        map.clear();
+        by_hand.clear();
+        for (int n = roll(1, 4); n > 0; --n) {
+            drawing<Texel> draw{roll.rect(map.size(), 8), roll.unit()};
+            map.cast(draw);
+            CHECK(draw.calls == 1);
+            const auto touched = draw(by_hand.casters());
+            by_hand.mark(touched.texels, touched.depth);
+            draw(all.view());
+        }
+        map.filter();
+        by_hand.filter();
+        CHECK(same_bits_in(map, by_hand));
+        CHECK(test::differences<Texel>(map.casters(), all.view(), whole(map.size())) == 0);
+        CHECK(test::differences<Texel>(map.soft(), test::dense<binomial<3>>(all).view(), whole(map.size())) == 0);
+        int wrong = 0;
+        test::for_each_texel({0, 0, map.tiles().tiles().columns(), map.tiles().tiles().rows()}, [&](int x, int y) {
+            const auto found = map.tiles().depth(x, y), expected = by_hand.tiles().depth(x, y);
+            wrong += map.tiles().tiles().test(x, y) != by_hand.tiles().tiles().test(x, y);
+            wrong += !test::same_bits(found.nearest, expected.nearest) || !test::same_bits(found.farthest, expected.farthest);
+        });
+        CHECK(wrong == 0);
+    }
+    map.clear();
+    map.filter();
+    CHECK(lit_everywhere(map));
+    CHECK(test::differences<Texel>(map.casters(), gnomon::image<Texel>(map.size(), Texel::clear()).view(), whole(map.size())) ==
+          0);
+}
+
 TEST_CASE_TEMPLATE("sample, receive and receive_row give the bits of the one-point forms", Texel, gnomon::rg8, gnomon::rgba16,
                    gnomon::rgb16f, gnomon::rga32f, test::paper32f) {
     dice roll(142);
@@ -180,7 +242,7 @@ TEST_CASE_TEMPLATE("sample, receive and receive_row give the bits of the one-poi
     map.receive(x, y, z, points);
     int wrong = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        wrong += !test::same_bits(points[i], map.sample(x[i], y[i], z[i]));
+        wrong += !test::same_bits(points[i], map.shadow_at(x[i], y[i], z[i]));
         wrong += !test::same_bits(points[i], gnomon::shadow(gnomon::sample(map.soft(), x[i], y[i]), z[i], map.decision));
     }
     for (const int line : {-1, 0, 20, 39, 40, lowest, highest}) {
@@ -189,7 +251,7 @@ TEST_CASE_TEMPLATE("sample, receive and receive_row give the bits of the one-poi
             wrong += !test::same_bits(row[static_cast<std::size_t>(i)], map.shadow(i, line, z[static_cast<std::size_t>(i)]));
     }
     for (int i = 0; i < 40; ++i)
-        wrong += !test::same_bits(map.shadow(20, i, 0.9f), map.sample(20.5f, static_cast<float>(i) + 0.5f, 0.9f));
+        wrong += !test::same_bits(map.shadow(20, i, 0.9f), map.shadow_at(20.5f, static_cast<float>(i) + 0.5f, 0.9f));
     CHECK(wrong == 0);
 }
 
@@ -209,7 +271,7 @@ TEST_CASE("the decision can be changed between reads, and acts on all of them") 
     };
     const float just_behind = 0.502f;
     CHECK(test::equal(answers(just_behind), 0.0f)); // towards light
-    map.decision = gnomon::rule_for<gnomon::rg8>(gnomon::towards_shadow<gnomon::rg8>);
+    map.decision = gnomon::rule{.caster = gnomon::towards_shadow};
     CHECK(test::equal(answers(just_behind), 1.0f));
     CHECK(test::equal(answers(1.5f), 1.0f));
     map.decision.lit_beyond = true;

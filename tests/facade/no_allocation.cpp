@@ -126,17 +126,26 @@ TEST_CASE("a whole frame of the facade allocates nothing, nor does the next") {
     gnomon::soft_shadow_map<gnomon::rgba8, gnomon::binomial<3>> map({.width = 200, .height = 150, .tile = 16});
     const float z[4] = {0.9f, 0.9f, 0.9f, 0.9f}, x[4] = {1.0f, 50.0f, 60.0f, 300.0f};
     float intensity[4] = {};
+    struct touched {
+        gnomon::texel_rect texels;
+        gnomon::depth_interval depth;
+    };
+    const auto draw = [](auto texels) {
+        texels(85, 25).cast(gnomon::rgba8::caster(0.5f));
+        return touched{{85, 25, 86, 26}, {0.5f, 0.5f}};
+    };
     CHECK(allocations_in([&] {
               for (int frame = 0; frame < 4; ++frame) {
                   map.clear();
                   map.cast({10 + 30 * frame, 10, 60 + 30 * frame, 50}, 0.5f);
                   map.cast({70, 60, 100, 90}, 0.25f, 0.5f);
+                  map.cast(draw);
                   map.bound(whole(map.size()), 0.75f);
                   map.filter();
                   map.receive(x, x, z, intensity);
                   map.receive_row(20, z, intensity);
                   intensity[0] +=
-                      map.shadow(110, 30, 0.6f) + map.sample(110.0f, 30.0f, 0.6f) + (map.reaches({0, 0, 9, 9}) ? 1.0f : 0.0f);
+                      map.shadow(110, 30, 0.6f) + map.shadow_at(110.0f, 30.0f, 0.6f) + (map.reaches({0, 0, 9, 9}) ? 1.0f : 0.0f);
               }
           }) == 0);
     CHECK(intensity[0] > 0.0f);

@@ -4,6 +4,7 @@
 
 #include <gnomon/geometry/directional_light.hpp>
 #include <gnomon/geometry/spot_light.hpp>
+#include <gnomon/grid/tile_grid.hpp>
 
 #include <doctest/doctest.h>
 
@@ -356,7 +357,7 @@ TEST_CASE("a solid turns one side to the light and one away, also when its model
         bool before_light = true; // wholly, so that it has two sides
         for (const glm::vec3& p : m.positions) before_light = before_light && light.frame.to_map(glm::dvec3(model * glm::dvec4(glm::dvec3(p), 1.0))).depth > 0.0;
         if (!before_light) continue;
-        const canvas all = draw(m.mesh(model), light.frame), lit = draw(m.mesh(model), light.frame, faces::towards_light), dark = draw(m.mesh(model), light.frame, faces::away_from_light);
+        const canvas all = draw(m.mesh(model), light.frame), lit = draw(m.mesh(model), light.frame, faces::lit_side), dark = draw(m.mesh(model), light.frame, faces::dark_side);
         int wrong = 0;
         for (std::size_t k = 0; k < all.count.size(); ++k) {
             wrong += all.count[k] != lit.count[k] + dark.count[k];
@@ -422,13 +423,17 @@ TEST_CASE("far bound: the shadow of every caster ends at the nearest receiver th
         }
         image<rgb16> texels(map_size, rgb16::clear());
         const texel_rect occupied = cast_triangles(texels.view(), casters.mesh(), light.frame).texels;
-        image<rgb16> skipping = texels;
+        image<rgb16> skipping = texels, by_tiles = texels;
+        tile_grid tiles(texels.size(), 8);
+        tiles.mark(occupied);
         bound_triangles(texels.view(), receivers.mesh(), light.frame);
         bound_triangles(skipping.view(), receivers.mesh(), light.frame, faces::both, [&](texel_rect r) {
             const bool touches = !intersection(r, occupied).empty();
             skipped += !touches;
             return touches;
         });
+
+        bound_triangles(by_tiles.view(), receivers.mesh(), light.frame, faces::both, tiles);
 
         // The oracle reads codes: of depth reversed, so the larger is the nearer.
         std::vector<int> nearest(96 * 80, 0), far_bound(96 * 80, 0);
@@ -448,7 +453,7 @@ TEST_CASE("far bound: the shadow of every caster ends at the nearest receiver th
                 const rgb16 t = texels(x, y);
                 wrong += static_cast<int>(t.stored[0]) != greater(nearest[k] - 1, 0) || t.occupied() != (nearest[k] > 0);
                 wrong += static_cast<int>(t.stored[rgb16::far_index]) != far_bound[k];
-                wrong += t != skipping(x, y);
+                wrong += t != skipping(x, y) || t != by_tiles(x, y);
                 bounded += t.occupied() && far_bound[k] > 0;
                 unbounded += t.occupied() && far_bound[k] == 0;
             }
@@ -480,12 +485,12 @@ TEST_CASE("far bound: nothing outside the region is bounded, and a receiver befo
     bound_triangles(at_zero.view(), above.mesh(), light);
     CHECK(at_zero(9, 9) == rgb32f::caster(0.0f));
     const texel_rect region{10, 20, 30, 40};
-    CHECK(bound_triangles(texels.view(), receiver.mesh(), light, faces::towards_light, touches_everything{}, region).texels == region);
+    CHECK(bound_triangles(texels.view(), receiver.mesh(), light, faces::lit_side, touches_everything{}, region).texels == region);
     int wrong = 0;
     for (int y = 0; y < 80; ++y)
         for (int x = 0; x < 96; ++x) wrong += region.contains(x, y) == (texels(x, y) == unbounded(x, y));
     CHECK(wrong == 0);
-    CHECK(bound_triangles(texels.view(), receiver.mesh(), light, faces::away_from_light).empty());
+    CHECK(bound_triangles(texels.view(), receiver.mesh(), light, faces::dark_side).empty());
 }
 
 TEST_CASE("a caster may be translucent, if its texels can say so") {

@@ -153,6 +153,17 @@ TEST_CASE("how many rectangles: by equal runs, by the reference engine's greed, 
     CHECK(rows_by_greed == 403'342);
 }
 
+#ifdef NDEBUG
+TEST_CASE("without asserts, a greedy merge that has too little scratch merges by equal runs") {
+    const tile_grid grid = pattern(0b0110'1111'0010'0010);
+    std::vector<gnomon::bit_word> scratch(side - 1);
+    rects found;
+    for_each_tile_rect_greedy(grid, scratch, [&](tile_rect r) { found.push_back(r); });
+    CHECK(found == merged(grid));
+    CHECK(found != merged_greedily(grid));
+}
+#endif
+
 TEST_CASE("grids of any size are merged exactly, also across the borders of words and of the map") {
     test::dice roll(31);
     for (int i = 0; i < 400; ++i) {

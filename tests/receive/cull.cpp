@@ -65,7 +65,7 @@ struct scene {
 TEST_CASE_TEMPLATE("a receiver that is culled is lit at every texel and between them, and many are culled", Texel, gnomon::rg16,
                    gnomon::rg32f, gnomon::rg8) {
     dice roll(111);
-    constexpr gnomon::rule careful = gnomon::default_rule<Texel>, exact = gnomon::rule_for<Texel>(gnomon::unbiased);
+    constexpr gnomon::rule careful = gnomon::rule{}, exact = gnomon::rule{.caster = gnomon::unbiased};
     int lost = 0, culled = 0, culled_by_depth = 0, shadowed = 0, asked = 0;
     for (int round = 0; round < 200; ++round) {
         const scene<Texel> s(roll, roll(1, 3) * 8);
@@ -81,6 +81,9 @@ TEST_CASE_TEMPLATE("a receiver that is culled is lit at every texel and between 
             const bool at_any_depth = s.shadowed(footprint, 2.0f, exact);
             lost += (truly && !reached) || (at_any_depth && !near_tiles) ||
                     (at_any_depth && !gnomon::casters_reach(s.tiles, footprint)) || (reached && !near_tiles);
+            for (const gnomon::bias b : {gnomon::unbiased, gnomon::towards_shadow}) // may shadow before the caster: any depth counts
+                lost += s.shadowed(footprint, z, gnomon::rule{.caster = b}) &&
+                        !gnomon::casters_reach(s.tiles, footprint, {nearer, z}, b.towards);
             culled += !reached;
             culled_by_depth += near_tiles && !reached;
             shadowed += truly;

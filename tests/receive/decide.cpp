@@ -40,7 +40,7 @@ struct tried_rule {
 };
 tried_rule rule_with(bias_towards towards, int roundings) {
     const int sign = towards == bias_towards::light ? 1 : (towards == bias_towards::shadow ? -1 : 0);
-    return {{.caster = {towards, roundings, 0.0f}}, sign * roundings};
+    return {{.caster = {.towards = towards, .roundings = roundings, .caster_is_code = true}}, sign * roundings};
 }
 const std::array every_rule{rule_with(bias_towards::none, 1), rule_with(bias_towards::light, 1), rule_with(bias_towards::light, 2), rule_with(bias_towards::shadow, 1),
                             rule_with(bias_towards::shadow, 2)};
@@ -124,8 +124,8 @@ TEST_CASE_TEMPLATE("a deeper receiver is never lit if a nearer one is shadowed",
     sweep wrong;
     for (int i = 0; i < 20'000; ++i) {
         const Texel texel = test::filtered(Texel::caster(dice.unit()), dice(1, 81), 81);
-        for (const bias towards : {towards_light<Texel>, unbiased, towards_shadow<Texel>}) {
-            const rule decision = rule_for<Texel>(towards);
+        for (const bias towards : {towards_light, unbiased, towards_shadow}) {
+            const rule decision = rule{.caster = towards};
             const float first = test::first_shadowed(texel, decision);
             for (int j = 0; j < 8; ++j) {
                 const float z = j < 4 ? first + dice.unit() * 0x1p-20f * static_cast<float>(j) : 2.0f * dice.unit();

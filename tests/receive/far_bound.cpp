@@ -82,10 +82,10 @@ TEST_CASE_TEMPLATE("a shadow that no receiver bounds never ends", Texel, EVERY_B
     for (const float s : {0.0f, 0.25f, 0.5f, 0.875f})
         for (const int covered : {1, 2, 17, 64, 80, 81}) {
             const Texel texel = test::filtered(Texel::caster(s), covered, 81);
-            for (const bias far : {towards_light<Texel>, unbiased, towards_shadow<Texel>})
+            for (const bias far : {towards_light, unbiased, towards_shadow})
                 for (const float fade : {0.0f, 0.5f})
                     for (const float z : {0.9375f, 1.0f, test::up(1.0f), 1.03125f, 1.25f, 1.5f, 2.0f, 65536.0f, test::infinity<float>}) {
-                        const rule with{.caster = towards_shadow<Texel>, .far_bound = far, .fade = fade};
+                        const rule with{.caster = towards_shadow, .far_bound = far, .fade = fade};
                         const float expected = Texel::channel_type::decode(texel.stored[Texel::mask_index]);
                         wrong.unless(test::same_bits(shadow(texel, z, with), expected), "s", s, "covered", covered, "z", z, "towards", static_cast<int>(far.towards), "fade", fade);
                     }
@@ -95,7 +95,7 @@ TEST_CASE_TEMPLATE("a shadow that no receiver bounds never ends", Texel, EVERY_B
 
 TEST_CASE_TEMPLATE("a far bound depth pushes the bound away from the light", Texel, rgb8, rgb16, rgb16f, rgb32f) {
     const Texel texel = bounded<Texel>(0.25f, 0.5f, 1, 1);
-    rule r = default_rule<Texel>;
+    rule r = rule{};
     CHECK(test::same_bits(shadow(texel, 0.5625f, r), 0.0f));
     r.far_bound.depth += 0.125f;
     CHECK(test::same_bits(shadow(texel, 0.5625f, r), 1.0f));
@@ -116,7 +116,7 @@ TEST_CASE_TEMPLATE("a translucent caster shadows with its opacity times the shar
 }
 
 TEST_CASE_TEMPLATE("lit_beyond lights what is behind the far plane and nothing before it", Texel, rg8, rg32f, rgba16, test::paper8) {
-    rule r = default_rule<Texel>;
+    rule r = rule{};
     const Texel texel = Texel::caster(0.25f);
     for (const float z : {test::up(1.0f), 2.0f, test::infinity<float>}) {
         CHECK(test::same_bits(shadow(texel, z, r), 1.0f));

@@ -25,7 +25,7 @@ constexpr std::array<std::uint16_t, 32> hostile_halves{0x0000, 0x0001, 0x0002, 0
                                                        0x37FF, 0x3800, 0x3801, 0x3BFF, 0x3C00, 0x3C01, 0x4000, 0x5640, 0x7BFE, 0x7BFF, 0x7C00,
                                                        0x7C01, 0x7DFF, 0x7E00, 0x7FFF, 0x0003, 0x0010, 0x0100, 0x0200, 0x0800, 0x1000};
 
-template <typename Texel> const std::array<rule, 4> every_rule{rule_for<Texel>(towards_light<Texel>), rule_for<Texel>(unbiased), rule_for<Texel>(towards_shadow<Texel>),
+template <typename Texel> const std::array<rule, 4> every_rule{rule{.caster = towards_light}, rule{.caster = unbiased}, rule{.caster = towards_shadow},
                                                                rule{.caster = {bias_towards::shadow, 2, 0.25f}, .far_bound = unbiased, .fade = 0.125f, .lit_beyond = true}};
 
 /// All receivers, each under one of the rules in turn: neighbouring texels get the others.

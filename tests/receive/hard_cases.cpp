@@ -21,7 +21,7 @@ using test::sweep;
 
 namespace {
 
-template <typename Texel> const std::array<rule, 3> every_rule{rule_for<Texel>(towards_light<Texel>), rule_for<Texel>(unbiased), rule_for<Texel>(towards_shadow<Texel>)};
+template <typename Texel> const std::array<rule, 3> every_rule{rule{.caster = towards_light}, rule{.caster = unbiased}, rule{.caster = towards_shadow}};
 
 // What g++ 12 may see whole, and from -O2 on then drops the rounding to float of the pair (numerics, section 8).
 filtered<rg32f> stored_and_read(double e, double m) { return read(rg32f{{float32::store(e), float32::store(m)}}); }
@@ -55,16 +55,16 @@ TEST_CASE_TEMPLATE("h02_empty_mask_with_depth_is_lit: numbers no filter makes bu
 TEST_CASE_TEMPLATE("h07_casters_at_near_and_far_plane: the first shadows every receiver and the second only beyond the far plane", Texel, EVERY_PLAIN_TEXEL) {
     constexpr rule exactly{.caster = unbiased};
     const auto sure_behind = [](double s) { return static_cast<float>(test::end_of_doubt<Texel>(s, 1.0)) + 0x1p-21f; };
-    for (const float z : {test::smallest<float>, 0x1p-20f, 0.5f, 1.0f, 2.0f}) CHECK(in_full_shadow(Texel::caster(0.0f), z, rule_for<Texel>(towards_shadow<Texel>)));
+    for (const float z : {test::smallest<float>, 0x1p-20f, 0.5f, 1.0f, 2.0f}) CHECK(in_full_shadow(Texel::caster(0.0f), z, rule{.caster = towards_shadow}));
     for (const float z : {0x1p-20f, 0.5f, 1.0f, 2.0f}) CHECK(in_full_shadow(Texel::caster(0.0f), z, exactly));
-    for (const float z : {sure_behind(0.0), 0.5f, 1.0f}) CHECK(in_full_shadow(Texel::caster(0.0f), z, default_rule<Texel>));
+    for (const float z : {sure_behind(0.0), 0.5f, 1.0f}) CHECK(in_full_shadow(Texel::caster(0.0f), z, rule{}));
 
     for (const float z : {0.0f, 0.5f, test::down(1.0f), 1.0f}) {
-        CHECK(lit(Texel::caster(1.0f), z, default_rule<Texel>));
+        CHECK(lit(Texel::caster(1.0f), z, rule{}));
         CHECK(lit(Texel::caster(1.0f), z, exactly));
     }
     CHECK(in_full_shadow(Texel::caster(1.0f), test::up(1.0f), exactly));
-    CHECK(in_full_shadow(Texel::caster(1.0f), sure_behind(1.0), default_rule<Texel>));
+    CHECK(in_full_shadow(Texel::caster(1.0f), sure_behind(1.0), rule{}));
 }
 
 TEST_CASE_TEMPLATE("h08_receiver_out_of_range: before the near plane and at NaN it is lit and beyond the far plane it is behind every caster", Texel, EVERY_PLAIN_TEXEL) {
@@ -83,7 +83,7 @@ TEST_CASE_TEMPLATE("h08_receiver_out_of_range: before the near plane and at NaN 
 TEST_CASE_TEMPLATE("h09_receiver_on_caster_is_lit: under the default rule at every share of the footprint", Texel, EVERY_PLAIN_TEXEL) {
     sweep wrong;
     for (const float s : test::trying_depths<typename Texel::channel_type>(4096)) // both sides of many codes
-        for (int covered = 1; covered <= 25; ++covered) wrong.unless(lit(test::filtered(Texel::caster(s), covered, 25), s, default_rule<Texel>), "s", s, "covered", covered, "of 25");
+        for (int covered = 1; covered <= 25; ++covered) wrong.unless(lit(test::filtered(Texel::caster(s), covered, 25), s, rule{}), "s", s, "covered", covered, "of 25");
     CHECK(wrong.report() == "");
 }
 

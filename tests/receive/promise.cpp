@@ -35,14 +35,14 @@ template <typename Texel, typename F> void for_filtered_casters(F&& f) {
 TEST_CASE_TEMPLATE("towards light: no receiver at or before its caster is shadowed", Texel, EVERY_PLAIN_TEXEL) {
     sweep wrong;
     for_filtered_casters<Texel>([&](float s, int covered, int taps, const Texel& texel) {
-        const float first = test::first_shadowed(texel, default_rule<Texel>);
+        const float first = test::first_shadowed(texel, rule{});
         wrong.unless(first > s, "s", s, "covered", covered, "of", taps, "is shadowed from", first);
     });
     CHECK(wrong.report() == "");
 }
 
 TEST_CASE_TEMPLATE("towards light: two roundings ask for two and then nothing at or before its caster is shadowed", Texel, EVERY_PLAIN_TEXEL) {
-    bias twice = towards_light<Texel>;
+    bias twice = towards_light;
     twice.roundings = 2;
     sweep wrong;
     for (const float s : test::trying_depths<typename Texel::channel_type>(255))
@@ -50,7 +50,7 @@ TEST_CASE_TEMPLATE("towards light: two roundings ask for two and then nothing at
             for (int across = 1; across <= taps; across += 1 + taps / 8)
                 for (int along = 1; along <= taps; along += 1 + taps / 8) {
                     const Texel texel = test::filtered(test::filtered(Texel::caster(s), across, taps), along, taps);
-                    const float first = test::first_shadowed(texel, rule_for<Texel>(twice));
+                    const float first = test::first_shadowed(texel, rule{.caster = twice});
                     wrong.unless(first > s, "s", s, "covered", across, along, "of", taps, "is shadowed from", first);
                 }
     CHECK(wrong.report() == "");
@@ -59,10 +59,29 @@ TEST_CASE_TEMPLATE("towards light: two roundings ask for two and then nothing at
 TEST_CASE_TEMPLATE("towards shadow: every receiver behind its caster is shadowed", Texel, EVERY_PLAIN_TEXEL) {
     sweep wrong;
     for_filtered_casters<Texel>([&](float s, int covered, int taps, const Texel& texel) {
-        const float first = test::first_shadowed(texel, rule_for<Texel>(towards_shadow<Texel>));
+        const float first = test::first_shadowed(texel, rule{.caster = towards_shadow});
         wrong.unless(first <= test::up(s), "s", s, "covered", covered, "of", taps, "is shadowed from", first);
     });
     CHECK(wrong.report() == "");
+}
+
+TEST_CASE_TEMPLATE("towards light: every receiver behind the band that bias.hpp words is shadowed and no band is twice too wide", Texel, rg8, rg16, rg16f, rg32f) {
+    using channel_type = typename Texel::channel_type;
+    constexpr bool half = std::is_same_v<channel_type, half16>;
+    constexpr double q = 2.0 * static_cast<double>(channel_type::max_error);
+    sweep wrong;
+    double worst = 0.0;
+    for_filtered_casters<Texel>([&](float s, int covered, int taps, const Texel& texel) {
+        const double m = covered * 1.0 / taps;
+        if (half && m < 0x1p-10) return;
+        const double lit = static_cast<double>(test::down(test::first_shadowed(texel, rule{}))), r = std::max(1.0 - lit, 0.0);
+        const double band = channel_type::whole_codes ? q * (1.0 + r + q) / m + q : (half ? 6.0 : 16.0) * q;
+        const double share = (lit - static_cast<double>(s)) / band;
+        wrong.unless(share <= 1.0, "s", s, "covered", covered, "of", taps, "lit until", lit, "share", share);
+        worst = std::max(worst, share);
+    });
+    CHECK(wrong.report() == "");
+    CHECK(worst > 0.5);
 }
 
 TEST_CASE_TEMPLATE("towards light: every receiver behind the stated band is shadowed and the band is nearly needed", Texel, EVERY_PLAIN_TEXEL) {
@@ -70,7 +89,7 @@ TEST_CASE_TEMPLATE("towards light: every receiver behind the stated band is shad
     sweep wrong;
     double worst = 0.0;
     for_filtered_casters<Texel>([&](float s, int covered, int taps, const Texel& texel) {
-        const double first = static_cast<double>(test::first_shadowed(texel, default_rule<Texel>)), depth = static_cast<double>(s);
+        const double first = static_cast<double>(test::first_shadowed(texel, rule{})), depth = static_cast<double>(s);
         const double bound = test::end_of_doubt<Texel>(depth, covered * 1.0 / taps);
         const double next_float = paper ? 0x1p-22 : 0x1p-23 * bound; // the paper's own arithmetic is single precision around 1
         wrong.unless(first <= bound + next_float, "s", s, "covered", covered, "of", taps, "first shadowed", first, "bound", bound, "share", (first - depth) / (bound - depth));

@@ -70,7 +70,7 @@ TEST_CASE("a row may be a vector or an array or a std::span and its rule is the 
     std::vector<float> from_vector(5), from_span(5);
     receive(texels, z, from_vector);
     receive(std::span(texels).subspan(1), z, from_span);
-    for (std::size_t i = 0; i < 5; ++i) CHECK(test::same_bits(from_vector[i], shadow(texels[i], z[i], default_rule<rg16>)));
+    for (std::size_t i = 0; i < 5; ++i) CHECK(test::same_bits(from_vector[i], shadow(texels[i], z[i], rule{})));
     for (std::size_t i = 0; i < 4; ++i) CHECK(test::same_bits(from_span[i], shadow(texels[i + 1], z[i])));
 }
 

@@ -79,7 +79,7 @@ template <int Radius, typename Number> constexpr weights_of<Radius> apportion(co
     return w;
 }
 
-/// exp(-x) for x >= 0, to 2e-15: the series at x / 2^k, squared k times. (No constexpr <cmath> in C++20.)
+/// exp(-x) for x >= 0, within 2e-15: the series at x / 2^k, squared k times. (No constexpr <cmath> in C++20.)
 constexpr double exp_minus(double x) {
     int halvings = 0;
     for (; x > 0.125; x /= 2) ++halvings;

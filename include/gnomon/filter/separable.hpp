@@ -6,14 +6,17 @@
 #include <gnomon/texel/texel.hpp>
 
 #include <bit>
+#include <cstdint>
 #include <span>
+#include <type_traits>
+#include <vector>
 
 namespace gnomon {
 
 /// What a line between the passes holds: whole numbers where codes are whole (exact), doubles otherwise.
 template <texel_format Texel> using line_element = std::conditional_t<Texel::channel_type::whole_codes, std::uint32_t, double>;
 
-/// The memory a filter needs beside its images: one line of wide sums for each row it writes. Nothing is read from it that the
+/// The memory a filter needs beside its images: one line of wide sums, used again for every row. Nothing is read from it that the
 /// same call did not write, so it may hold anything. For a map of `width` texels: filter_scratch_size<Texel, Kernel>(width) elements.
 template <texel_format Texel, kernel Kernel> [[nodiscard]] constexpr std::size_t filter_scratch_size(int width) noexcept {
     return (static_cast<std::size_t>(greater(width, 0)) + 2 * static_cast<std::size_t>(Kernel::radius)) * static_cast<std::size_t>(Texel::channels);
@@ -96,10 +99,13 @@ void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) no
 /// Beyond the map's edge lies clear, never a repeated edge. Unorm results are the exact rational convolution rounded once, halves
 /// upwards. Half and float results are rounded once from a sum within 2^-35 of it, relatively. Clear stays exactly clear, a uniform
 /// region stays exactly itself, and e <= m holds at every texel. `scratch` is trusted for nothing.
-/// \pre `from` and `to` do not overlap. Cost: 2 (2R+1) multiply-adds a channel of a texel.
+/// \pre `from` and `to` do not overlap; an image is not filtered into itself, and asking for it does nothing.
+/// Cost: 2 (2R+1) multiply-adds a channel of a texel, and half of that for 2R columns beside the region.
 template <kernel Kernel, texel_format Texel>
 void filter_region(std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, texel_rect region, filter_scratch<Texel, Kernel>& scratch) noexcept {
     static_assert(kernel_is_sound<Kernel>());
+    GNOMON_ASSERT(from.data() != to.data() || region.empty(), "gnomon: a filter reads one image and writes another");
+    if (from.data() == to.data()) return;
     region = clip(clip(region, to.size()), from.size());
     [[maybe_unused]] const auto needed = filter_scratch_size<Texel, Kernel>(region.width());
     GNOMON_ASSERT(region.empty() || scratch.line().size() >= needed, "gnomon: the filter's scratch is narrower than the region; make it for the map's width");

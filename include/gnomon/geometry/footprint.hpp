@@ -49,7 +49,7 @@ struct map_bounds {
 [[nodiscard]] inline glm::dvec3 finite(const glm::dvec3& v) noexcept { return {finite(v.x), finite(v.y), finite(v.z)}; }
 } // namespace detail
 
-/// What of the map a box can touch, as a caster or as a receiver: every point of it lies in, and no side is a texel too far out.
+/// What of the map a box can touch, as a caster or as a receiver: every point of it lies in, and no side is more than 1 + 1/1024 texel too far out.
 ///
 /// A directional light's near plane cuts nothing off, since casters before it are kept at depth 0. A spot light's does: the box is
 /// clipped exactly, and one wholly before the near plane or behind the light is empty. Beyond the far plane the depth is 1. Empty
@@ -75,7 +75,7 @@ struct map_bounds {
     return bounds.rounded(light.size());
 }
 
-/// The same of a ball: bounded by the planes through the light that touch it, so no side is a texel too far out either.
+/// The same of a ball: bounded by the planes through the light that touch it, so no side is farther out either.
 ///
 /// Where a spot light's near plane cuts the ball, it is the footprint of the box around it: conservative, and looser.
 [[nodiscard]] inline light_footprint footprint(const bounding_sphere& ball, const light_frame& light) noexcept {

@@ -18,10 +18,14 @@ struct triangle_mesh {
 
 /// Which triangles take part, by the side they turn to the light. Counter-clockwise from outside, in the mesh's own space: a
 /// mirroring model matrix does not turn it inside out. A triangle seen exactly edge-on counts as turned away.
-enum class faces { both, towards_light, away_from_light };
+enum class faces { both, lit_side, dark_side };
 
 /// What rounding a depth in [0, 1] to float costs at most: 2^-25.
 inline constexpr double raster_depth_error = 1.0 / 33554432.0;
+
+/// Knows where something may be: a tile_grid, a depth_tiles, or any callable that answers for a texel_rect.
+template <typename T>
+concept marked_texels = requires(const T& where, texel_rect r) { where.touches(r); } || requires(const T& where, texel_rect r) { where(r); };
 
 /// The region without a limit, and the test that skips nothing.
 inline constexpr texel_rect everywhere{-(1 << 29), -(1 << 29), 1 << 29, 1 << 29};
@@ -135,6 +139,13 @@ class depth_surface {
     }
     return triangle;
 }
+
+template <marked_texels Where> [[nodiscard]] constexpr bool touches(const Where& where, texel_rect r) {
+    if constexpr (requires { where.touches(r); })
+        return where.touches(r);
+    else
+        return where(r);
+}
 } // namespace detail
 
 /// Calls `sink(x, y, depth)` once per triangle for every texel of `target`, a part of the map, whose centre the triangle covers.
@@ -147,12 +158,12 @@ class depth_surface {
 /// [0, 1]: rounding to float is all of it. It is limited to the depths of the triangle's corners, but not to [0, 1]: a directional
 /// light's near plane cuts nothing off, so that casters before it keep their silhouette. A spot light's does. No far plane does.
 ///
-/// `touches(texel_rect)` may skip a triangle by the box around it. Returns what was touched: the texels, and the depths in [0, 1].
+/// `where` may skip a triangle by the box around it. Returns what was touched: the texels, and the depths in [0, 1].
 /// The order is that of the indices, then rows, then columns. Nothing is allocated. Nothing is drawn by an invalid frame.
-template <typename Sink, typename Touches = touches_everything>
+template <typename Sink, marked_texels Where = touches_everything>
     requires requires(Sink& sink, int i, float depth) { sink(i, i, depth); }
 light_footprint rasterize(const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side, Sink&& sink,
-                          Touches&& touches = {}) {
+                          const Where& where = {}) {
     light_footprint touched;
     target = clip(target, light.size());
     if (target.empty() || !light.valid()) return touched;
@@ -166,11 +177,11 @@ light_footprint rasterize(const triangle_mesh& mesh, const light_frame& light, t
         detail::fixed_point corners[detail::most_corners];
         if (!visible.snap(corners)) continue;
         const texel_rect around = intersection(target, detail::centres_in(corners, visible.count));
-        if (around.empty() || !touches(around)) continue;
+        if (around.empty() || !detail::touches(where, around)) continue;
 
         const detail::depth_surface depth(triangle.corner, visible.corner[0], light);
         const bool towards = depth.area() * handedness < 0.0; // x, y, depth of a map are left-handed
-        if (side != faces::both && towards != (side == faces::towards_light)) continue;
+        if (side != faces::both && towards != (side == faces::lit_side)) continue;
 
         detail::scan(corners, visible.count, around, [&](int y, int x0, int x1) {
             for (int x = x0; x < x1; ++x) sink(x, y, depth(x, y));
@@ -200,16 +211,16 @@ light_footprint cast_triangles(image_view<Texel> texels, const triangle_mesh& me
 
 /// Ends the shadows in a map at the first receiver behind each caster. Call it when all casters are in: see texel::bound.
 ///
-/// `touches(texel_rect)` may skip triangles where nothing casts, as tile grids answer; `region` limits the work for receivers that
-/// are larger than that, such as a ground. Receivers before the near plane end nothing. Returns what was touched, caster or not.
-template <texel_format Texel, typename Touches = touches_everything>
+/// `where` may skip triangles where nothing casts: bound_triangles(texels, ground, light, faces::both, tiles). `region` limits the
+/// work for receivers that are larger than that, such as a ground. Receivers before the near plane end nothing. Returns what was touched, caster or not.
+template <texel_format Texel, marked_texels Where = touches_everything>
     requires(Texel::effects.far_bound)
 light_footprint bound_triangles(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light, faces side = faces::both,
-                                Touches&& touches = {}, texel_rect region = everywhere) {
+                                const Where& where = {}, texel_rect region = everywhere) {
     const auto bound = [&](int x, int y, float z) {
         if (z >= 0.0f) texels(x, y).bound(z);
     };
-    return rasterize(mesh, light, clip(region, texels.size()), side, bound, touches);
+    return rasterize(mesh, light, clip(region, texels.size()), side, bound, where);
 }
 
 } // namespace gnomon

@@ -12,7 +12,7 @@ using bit_word = std::uint64_t;
 inline constexpr int bits_per_word = 64;
 
 /// Words that hold `bits` bits.
-[[nodiscard]] constexpr int words_for(int bits) noexcept { return (bits + bits_per_word - 1) / bits_per_word; }
+[[nodiscard]] constexpr int words_for(int bits) noexcept { return bits / bits_per_word + (bits % bits_per_word != 0 ? 1 : 0); }
 
 /// A view of `size` bits somewhere in memory. Bits past `size` in the last word stay zero.
 /// Spans are half-open and inside the row: \pre 0 <= first <= last <= size. An empty span does nothing and holds nothing.

@@ -20,13 +20,13 @@ struct real_rect {
 /// What it does otherwise than tile_grid, and why tile_grid does not: a caster off the map is dropped *before* its penumbra is
 /// added, so soft edges pop in at the border; the last tile of a span is inclusive, so an edge on a tile border marks one
 /// tile too many; a receiver off the map is pulled to the edge tiles; the filter reaches 2R texels and a margin is added.
-/// A rectangle with a NaN side or an inverted one is rejected; the engine has no rule for it.
+/// A rectangle with a NaN side or an inverted one is rejected, and every rectangle on an empty map; the engine has no rule for them.
 class reference_grid {
   public:
     static constexpr int side = 32;
     /// Texels at the map's edge that the engine never writes.
     static constexpr int border = 2;
-    /// The largest radius and margin that make a difference; more counts as this.
+    /// The largest radius and the largest margin; more counts as this.
     static constexpr int most = 1 << 20;
 
     /// `radius` is the engine's blur setting R; the blur reaches 2R texels. `margin` widens the guard; the engine uses 2.

@@ -1,4 +1,4 @@
-// gnomon: soft shadow maps. The tile-grid bit-vector manager: where on the map anything is (seed 000, "Efficient Blurring").
+// gnomon: soft shadow maps. The tile-grid bit-vector manager: where on the map anything is (Salzman 2007, "Efficient Blurring").
 #pragma once
 
 #include <gnomon/grid/bit_row.hpp>
@@ -58,7 +58,7 @@ class tile_grid {
         if (r.empty()) return {};
         return {r.x0 / tile_, r.y0 / tile_, (r.x1 - 1) / tile_ + 1, (r.y1 - 1) / tile_ + 1};
     }
-    /// The texels of a rectangle of tiles, clipped to the map.
+    /// The texels of a rectangle of tiles; those at the map's edge may be narrower. \pre the tiles lie in the grid
     [[nodiscard]] texel_rect texels_of(tile_rect t) const noexcept {
         return {t.x0 * tile_, t.y0 * tile_, last_texel(t.x1, columns_, size_.width), last_texel(t.y1, rows_, size_.height)};
     }
@@ -78,7 +78,7 @@ class tile_grid {
         return tiles;
     }
 
-    /// Does `r` touch a set tile within the union of all marks? False for an empty rectangle and for one off the map.
+    /// Does `r`, cut to the union of all marks, touch a set tile? False for an empty rectangle and for one off the map.
     /// Cost: the rows it spans, ending at the first hit.
     [[nodiscard]] bool touches(texel_rect r) const noexcept {
         const tile_rect tiles = tiles_of(intersection(r, bounds_));

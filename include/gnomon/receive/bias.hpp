@@ -15,38 +15,37 @@ enum class bias_towards {
 };
 
 /// A bias lives in the multiplied domain, e > m (1-z), where a rounding has the same size at every m; so it grows as 1/m in depth,
-/// just as the doubt does, and no constant depth offset could do the same work.
+/// just as the doubt does, and no constant depth offset could do the same work. How much it is follows from the texel's channel.
 ///
-/// `towards_light<Texel>`, `unbiased` and `towards_shadow<Texel>` are the three to use. In words of codes: with k roundings,
-/// towards light shadows iff E - k/2 > (M + k/2)(1 - z), which is the least bias without false shadow.
+/// `towards_light`, which is also `bias{}`, `unbiased` and `towards_shadow` are the three to use. In words of unorm codes: with k
+/// roundings, and h half a code of depth, towards light shadows iff E - k/2 > (M + k/2) (1 - (z - h)).
 struct bias {
     bias_towards towards = bias_towards::light;
     /// How often a filtered number was rounded to storage: 1 for gnomon's filters, 2 for a two-pass filter that stores between.
     int roundings = 1;
-    /// Moves the receiver this much of the depth range to the favoured side: towards the light with `light`, away from it with
+    /// Moves the receiver this much more of the depth range to the favoured side: towards the light with `light`, away from it with
     /// `shadow`, and not at all with `none`. A host's own bias in world units over the light's range goes here.
     float depth = 0.0f;
+    /// The caster's depth was a code of the channel before it was stored, so storing it rounded nothing: h is 0, and the bias is the
+    /// least there is without false shadow.
+    bool caster_is_code = false;
 };
 
-/// What the rounding of a caster's own depth can do, and 2^-24 for the receiver's subtraction in float.
-template <texel_format Texel> inline constexpr float caster_depth_error = Texel::channel_type::max_error + 0x1p-24f;
-
-/// The bias of a texel format in a given direction, for maps that gnomon filtered.
-template <texel_format Texel> [[nodiscard]] constexpr bias bias_for(bias_towards direction) noexcept {
-    return {direction, 1, direction == bias_towards::none ? 0.0f : caster_depth_error<Texel>};
-}
-
-/// No false shadow for any caster depth s and receiver z <= s. Shadow is kept, with q = 2 max_error, for every z beyond
+/// No false shadow for any caster depth s and receiver z <= s. In texels of depth_mask shadow is kept, with q = 2 max_error and m the
+/// exact share of the footprint, for every z beyond
 ///     unorm   s + q (1+r+q)/m + q, where r = max(1-z, 0)
 ///     half    s + 6 q, for m >= 2^-10
 ///     float   s + 16 q
-template <texel_format Texel> inline constexpr bias towards_light = bias_for<Texel>(bias_towards::light);
+inline constexpr bias towards_light{};
 
 /// Exactly what is stored.
-inline constexpr bias unbiased{bias_towards::none, 1, 0.0f};
+inline constexpr bias unbiased{.towards = bias_towards::none};
 
 /// No light for any z > s. Shadow may begin before the caster, by as much as towards_light loses behind it.
-template <texel_format Texel> inline constexpr bias towards_shadow = bias_for<Texel>(bias_towards::shadow);
+inline constexpr bias towards_shadow{.towards = bias_towards::shadow};
+
+/// What the rounding of a caster's own depth can do, and 2^-24 for the sums in float that apply it.
+template <texel_format Texel> inline constexpr float caster_depth_error = Texel::channel_type::max_error + 0x1p-24f;
 
 /// The pair (e, m) and the receiver z, each moved to the favoured end of what it may have been before it was rounded.
 struct biased {
@@ -67,7 +66,8 @@ template <texel_format Texel> [[nodiscard]] constexpr biased apply(const bias& b
     const float k = towards * static_cast<float>(b.roundings);
     const real lower = (static_cast<real>(e) - static_cast<real>(k * depth.absolute)) * static_cast<real>(1.0f - (k * depth.relative + towards * own));
     const real upper = (static_cast<real>(m) + static_cast<real>(k * mask.absolute)) * static_cast<real>(1.0f + (k * mask.relative + towards * own));
-    return {static_cast<double>(lower), static_cast<double>(upper), z - towards * b.depth};
+    const float caster = b.caster_is_code ? 0.0f : caster_depth_error<Texel>;
+    return {static_cast<double>(lower), static_cast<double>(upper), z - towards * (b.depth + caster)};
 }
 
 } // namespace gnomon

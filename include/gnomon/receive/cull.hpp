@@ -2,17 +2,19 @@
 #pragma once
 
 #include <gnomon/grid/depth_range.hpp>
+#include <gnomon/receive/bias.hpp>
 
 namespace gnomon {
 
-/// Could any caster shadow a receiver whose texels are `footprint` and whose depths are `depth`?
+/// Could any caster shadow a receiver whose texels are `footprint` and whose depths are `depth`, under a bias in this direction?
 ///
-/// False only if every point of it is lit: no marked tile touches it, or it lies before every caster of the tiles it touches.
-/// One texel is added on each side for the taps of a blended sample. Quantised maps may put a caster nearer than it is; the depth test
-/// here knows the true depths, so what it removes is never a true shadow. An empty interval has unknown depth and is not culled by it.
-[[nodiscard]] inline bool casters_reach(const depth_tiles& tiles, texel_rect footprint, depth_interval depth = {}) noexcept {
+/// False only if every point of it is lit: no marked tile touches it, or it lies before every caster of the tiles it touches. Only
+/// towards light does the second settle it: any other bias may shadow what lies before a caster. One texel is added on each side
+/// for the taps of a blended sample. An empty interval has unknown depth and is not culled by it.
+[[nodiscard]] inline bool casters_reach(const depth_tiles& tiles, texel_rect footprint, depth_interval depth = {},
+                                        bias_towards towards = bias_towards::light) noexcept {
     const texel_rect read = grow(footprint, 1);
-    return depth.empty() ? tiles.touches(read) : tiles.touches(read, depth.farthest);
+    return depth.empty() || towards != bias_towards::light ? tiles.touches(read) : tiles.touches(read, depth.farthest);
 }
 [[nodiscard]] inline bool casters_reach(const tile_grid& tiles, texel_rect footprint) noexcept { return tiles.touches(grow(footprint, 1)); }
 

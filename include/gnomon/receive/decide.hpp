@@ -6,25 +6,18 @@
 
 namespace gnomon {
 
-/// How a filtered texel becomes an intensity.
+/// How a filtered texel becomes an intensity. What every receive function uses if nothing else is said, rule{}: no false shadow.
 struct rule {
     /// Which way the test against the caster errs.
-    bias caster{};
+    bias caster = towards_light;
     /// The same for the far bound, which is a caster of light: towards light keeps the shadow on the receiver that is the bound.
     /// More `depth` pushes the bound away from the light. Ignored without effects{.far_bound = true}.
-    bias far_bound{};
+    bias far_bound = towards_light;
     /// Past the far bound the shadow fades out over this share of the depth range; 0 ends it at once.
     float fade = 0.0f;
     /// What lies beyond the light's far plane, z > 1: false leaves it to the test, which puts it behind every caster; true is lit.
     bool lit_beyond = false;
 };
-
-/// The rule for a texel format and a bias, with the far bound's own rounding taken care of.
-template <texel_format Texel> [[nodiscard]] constexpr rule rule_for(bias caster) noexcept {
-    return {.caster = caster, .far_bound = towards_light<Texel>};
-}
-/// What every receive function uses if nothing else is said: no false shadow.
-template <texel_format Texel> inline constexpr rule default_rule = rule_for<Texel>(towards_light<Texel>);
 
 namespace detail {
 
@@ -41,11 +34,11 @@ template <texel_format Texel> [[nodiscard]] constexpr double before_far_bound(co
 } // namespace detail
 
 /// Intensity of the shadow on a receiver at depth `z`, in [0, 1]: the filtered mask (or contribution) if it lies behind the caster
-/// (seed 000, step 4), cut at the far bound if there is one.
+/// (Salzman 2007, step 4), cut at the far bound if there is one.
 ///
 /// Total: m = 0, negative or NaN is lit; z <= 0 and NaN is lit; z = +inf is behind everything; any bit pattern gives [0, 1].
 /// Exact for the stored codes of unorm texels: no rounding happens before the comparison is decided.
-template <texel_format Texel> [[nodiscard]] constexpr float shadow(const filtered<Texel>& texel, float z, const rule& r = default_rule<Texel>) noexcept {
+template <texel_format Texel> [[nodiscard]] constexpr float shadow(const filtered<Texel>& texel, float z, const rule& r = {}) noexcept {
     using representation_type = typename Texel::representation_type;
     if (!(texel.mask() > 0.0) || !(z > 0.0f) || (r.lit_beyond && z > 1.0f)) return 0.0f;
     const biased near_side = apply<Texel>(r.caster, texel.depth(), texel.mask(), z);
@@ -56,14 +49,14 @@ template <texel_format Texel> [[nodiscard]] constexpr float shadow(const filtere
 }
 
 /// The same for a texel as it is stored.
-template <texel_format Texel> [[nodiscard]] constexpr float shadow(const Texel& texel, float z, const rule& r = default_rule<Texel>) noexcept {
+template <texel_format Texel> [[nodiscard]] constexpr float shadow(const Texel& texel, float z, const rule& r = {}) noexcept {
     return shadow(read(texel), z, r);
 }
 
 /// Depth of the caster behind a filtered texel, in [0, 1], for tools and pictures: s = 1 - e/m, and 1, the far plane, if m = 0.
 ///
-/// Correctly rounded for stored texels. Exact up to that if one depth was filtered with clear texels, a weighted mean if several were (seed 000,
-/// "Disadvantages"). A unorm pair is within (2-s)/(2M) of the depth that was filtered, M the stored mask code: at M = 1 an 8-bit
+/// Correctly rounded for stored texels. Exact up to that if one depth was filtered with clear texels, a weighted mean if several were (Salzman
+/// 2007, "Disadvantages"). A unorm pair is within (2-s)/(2M) of the depth that was filtered, M the stored mask code: at M = 1 an 8-bit
 /// depth carries no information. Decisions never use it.
 template <texel_format Texel> [[nodiscard]] constexpr float caster_depth(const filtered<Texel>& texel) noexcept {
     const double e = texel.depth(), m = texel.mask();

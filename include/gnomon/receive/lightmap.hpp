@@ -1,4 +1,4 @@
-// gnomon: soft shadow maps. A dynamic shadow on light that was precomputed (seed 000, "Integrating with Single-pass Lightmaps").
+// gnomon: soft shadow maps. A dynamic shadow on light that was precomputed (Salzman 2007, "Integrating with Single-pass Lightmaps").
 #pragma once
 
 #include <gnomon/texel/image.hpp>
@@ -8,7 +8,8 @@ namespace gnomon {
 /// What a shadow leaves of a lightmap's light: light - shadow * max(light - ambient, 0).
 ///
 /// Never brighter than `light`, never below `ambient` unless the light already was: a place the lightmap shows dark is not darkened
-/// twice. `shadow` is limited to [0, 1], NaN is no shadow; a NaN light or floor gives the light itself. Within 1 ulp of the formula.
+/// twice. `shadow` is limited to [0, 1], NaN is no shadow; a NaN light or floor gives the light itself, and
+/// so does an infinite one. Within 1 ulp of the formula.
 [[nodiscard]] constexpr float mask_light(float light, float shadow, float ambient) noexcept {
     if (!(light > ambient)) return light;
     const double l = static_cast<double>(light), share = static_cast<double>(saturate(shadow));

@@ -12,6 +12,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <type_traits>
 
 namespace gnomon {
 
@@ -91,7 +92,7 @@ struct float32 {
     static constexpr float max_error = 0x1p-25f;
 
     [[nodiscard]] static constexpr storage encode(double v) noexcept { return store(saturate(v)); }
-    /// The addition keeps g++ 12 from dropping the rounding of a pair that is stored and read again (numerics, "SLP hazard").
+    /// The addition keeps g++ 12 from dropping the rounding of two numbers that are stored and read again side by side.
     [[nodiscard]] static constexpr storage store(double code) noexcept { return static_cast<float>(code) + 0.0f; }
     [[nodiscard]] static constexpr float code(storage c) noexcept { return c; }
     [[nodiscard]] static constexpr float decode(storage c) noexcept { return c; }

@@ -9,7 +9,7 @@ namespace gnomon {
 ///
 /// (e, m) is premultiplied alpha whose colour is reversed depth. Clear is all zero and stays zero under every linear filter;
 /// e/m does not depend on the sum of the weights; floats keep their relative precision in the penumbra; e <= m always.
-/// Seed 000 writes the same pair as d = 1 - e; see paper_depth_mask.
+/// Salzman 2007 writes the same pair as d = 1 - e; see paper_depth_mask.
 struct depth_mask {
     /// What an empty texel holds in its depth and far-bound channels.
     static constexpr double clear_depth = 0.0;
@@ -33,7 +33,7 @@ struct depth_mask {
     /// form rounds nothing when z >= 1/2, the second rounds m - e only where that cannot change the answer.
     /// NaN anywhere compares false: lit. z = +inf counts as behind everything, z = -inf as before everything.
     template <typename Real> [[nodiscard]] static constexpr bool behind(Real e, Real m, Real z) noexcept {
-        return z < Real(0.5) ? m * z > m - e : e > m * (Real(1) - z);
+        return select(z < Real(0.5), m * z > m - e, e > m * (Real(1) - z));
     }
 };
 

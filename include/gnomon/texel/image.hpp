@@ -11,7 +11,8 @@
 
 namespace gnomon {
 
-/// `size` elements, `stride` bytes apart: one row of an image, a column, or any field of an array of structures.
+/// `size` elements, `stride` bytes apart: one row of an image, a column, or any field of an array of structures. The stride keeps
+/// the elements aligned: \pre stride is a multiple of alignof(T). At most 2^31 - 1 elements; more are left out.
 template <typename T> class strided_span {
   public:
     using element_type = T;
@@ -26,7 +27,8 @@ template <typename T> class strided_span {
             { r.data() } -> std::convertible_to<T*>;
             { r.size() } -> std::convertible_to<std::size_t>;
         }
-    constexpr strided_span(Range&& range) noexcept : strided_span(range.data(), static_cast<int>(range.size())) {}
+    constexpr strided_span(Range&& range) noexcept
+        : strided_span(range.data(), static_cast<int>(lesser<std::size_t>(range.size(), detail::int_max))) {}
     constexpr operator strided_span<const T>() const noexcept
         requires(!std::is_const_v<T>)
     {
@@ -48,15 +50,17 @@ template <typename T> class strided_span {
 
 template <typename Range> strided_span(Range&& range) -> strided_span<std::remove_pointer_t<decltype(range.data())>>;
 
-/// A rectangle of texels in memory that somebody else owns, rows `stride` bytes apart. A negative stride flips it.
+/// A rectangle of texels in memory that somebody else owns, rows `stride` bytes apart: \pre stride is a multiple of alignof(T).
+/// `data` is row 0; with a negative stride, which flips an image, that is the last row in memory. Without memory it is empty.
 template <typename T> class image_view {
   public:
     using element_type = T;
 
     constexpr image_view() noexcept = default;
     image_view(T* data, extent size, std::ptrdiff_t stride) noexcept
-        : data_(data), size_{greater(size.width, 0), greater(size.height, 0)}, stride_(stride) {
+        : data_(data), size_{data != nullptr ? greater(size.width, 0) : 0, data != nullptr ? greater(size.height, 0) : 0}, stride_(stride) {
         GNOMON_ASSERT(data != nullptr || size.empty(), "gnomon: an image_view that is not empty needs memory");
+        GNOMON_ASSERT(stride % static_cast<std::ptrdiff_t>(alignof(T)) == 0, "gnomon: the rows of an image_view must be aligned for its texels");
     }
     /// Rows that follow each other without a gap.
     image_view(T* data, extent size) noexcept : image_view(data, size, static_cast<std::ptrdiff_t>(sizeof(T)) * size.width) {}
@@ -86,7 +90,12 @@ template <typename T> class image_view {
         r = clip(r, size_);
         return r.empty() ? image_view{} : image_view{row(r.y0) + r.x0, {r.width(), r.height()}, stride_};
     }
-    /// Sets every texel of `r`, clipped to the image.
+    /// Sets every texel; or every one of `r`, clipped to the image.
+    void fill(const T& value) const noexcept
+        requires(!std::is_const_v<T>)
+    {
+        fill(whole(size_), value);
+    }
     void fill(texel_rect r, const T& value) const noexcept
         requires(!std::is_const_v<T>)
     {

@@ -1,4 +1,4 @@
-// gnomon: soft shadow maps. What the two numbers of a texel mean in seed 000, to the letter: kept for comparison.
+// gnomon: soft shadow maps. What the two numbers of a texel mean in Salzman 2007, to the letter: kept for comparison.
 #pragma once
 
 #include <gnomon/texel/channel.hpp>
@@ -9,7 +9,7 @@ namespace gnomon {
 ///
 /// A named baseline, in every table beside depth_mask, to show what the complement is for: the clear value survives a filter
 /// only if the weights sum to one in the arithmetic used; in floats d keeps an absolute, not a relative precision, which the
-/// division by m then magnifies (half at m = 1/100: 0.059 of the depth range against 0.001); unorm formats are equal.
+/// division by m then magnifies (half at m = 1/100: 0.059 of the depth range against 0.001); unorm formats are equal, ties apart.
 struct paper_depth_mask {
     /// What an empty texel holds in its depth and far-bound channels.
     static constexpr double clear_depth = 1.0;
@@ -30,9 +30,10 @@ struct paper_depth_mask {
 
     /// Is a receiver at depth `z` behind the caster of a filtered pair?   z > s = (d-1)/m + 1
     ///
-    /// The paper's own division, in the paper's own single precision. `m` = 0 gives NaN, which compares false: lit.
+    /// The paper's own division, in the paper's own single precision. It needs a case that depth_mask does not: a bias towards shadow
+    /// may leave m <= 0, where everything is behind a caster that has any depth.
     template <typename Real> [[nodiscard]] static constexpr bool behind(Real e, Real m, Real z) noexcept {
-        return static_cast<float>(z) > static_cast<float>(-e) / static_cast<float>(m) + 1.0f;
+        return select(m > Real(0), static_cast<float>(z) > static_cast<float>(-e) / static_cast<float>(m) + 1.0f, e > Real(0));
     }
 };
 

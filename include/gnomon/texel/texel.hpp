@@ -6,6 +6,7 @@
 #include <gnomon/texel/effects.hpp>
 #include <gnomon/texel/paper_depth_mask.hpp>
 
+#include <concepts>
 #include <cstddef>
 
 namespace gnomon {
