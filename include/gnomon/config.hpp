@@ -10,6 +10,7 @@
 #define GNOMON_ASSERT(condition, sentence) assert((condition) && (sentence))
 #endif
 
+// clang-format off
 // NaN must compare false and a difference must not be reassociated: both decide whether a receiver is lit.
 #if (defined(__FAST_MATH__) || defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)) && !defined(GNOMON_ALLOW_FAST_MATH)
 #error "gnomon: -ffast-math and -ffinite-math-only break NaN handling and exact decisions. Compile the file that includes gnomon \
@@ -19,3 +20,4 @@ without them, or define GNOMON_ALLOW_FAST_MATH and accept that no bound is promi
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && !defined(GNOMON_ALLOW_FAST_MATH)
 #error "gnomon: float and double must be evaluated in their own precision (FLT_EVAL_METHOD == 0). On 32-bit x86 pass -msse2 -mfpmath=sse."
 #endif
+// clang-format on

@@ -41,9 +41,7 @@ struct tile_rect {
 };
 
 /// The whole map as a rectangle.
-[[nodiscard]] constexpr texel_rect whole(extent size) noexcept {
-    return {0, 0, greater(size.width, 0), greater(size.height, 0)};
-}
+[[nodiscard]] constexpr texel_rect whole(extent size) noexcept { return {0, 0, greater(size.width, 0), greater(size.height, 0)}; }
 
 /// What two rectangles share; an empty rectangle, all zero, if nothing.
 [[nodiscard]] constexpr texel_rect intersection(texel_rect a, texel_rect b) noexcept {

@@ -66,7 +66,8 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
         mark(touched.texels, touched.depth);
     }
 
-    /// The map of casters, for an engine that keeps its own order. What it writes and does not mark is neither filtered nor cleared.
+    /// The map of casters, for an engine that keeps its own order. What it writes and does not mark is neither filtered nor
+    /// cleared.
     [[nodiscard]] image_view<Texel> casters() noexcept { return casters_.view(); }
     /// Says that `r` now holds casters in `depth`.
     void mark(texel_rect r, depth_interval depth) noexcept { tiles_.mark(r, depth, Kernel::radius); }
@@ -99,7 +100,9 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
     /// A position is not a texel: ask shadow_at.
     template <std::floating_point X, std::floating_point Y> float shadow(X x, Y y, float z) const = delete;
     /// Intensity at a position in texels, blended from four; 0 off the map.
-    [[nodiscard]] float shadow_at(float x, float y, float z) const noexcept { return gnomon::shadow(sample(soft(), x, y), z, decision); }
+    [[nodiscard]] float shadow_at(float x, float y, float z) const noexcept {
+        return gnomon::shadow(sample(soft(), x, y), z, decision);
+    }
     /// The same for a map_point or anything else with x, y and depth.
     template <typename Point>
         requires requires(const Point& p) { static_cast<float>(p.x + p.y + p.depth); }
@@ -107,7 +110,8 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
         return shadow_at(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.depth));
     }
     /// Many points at once.
-    void receive(strided_span<const float> x, strided_span<const float> y, strided_span<const float> z, strided_span<float> intensity) const noexcept {
+    void receive(strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
+                 strided_span<float> intensity) const noexcept {
         run_.receive(soft(), x, y, z, intensity, decision);
     }
     /// One row of receivers, one to one on the texels of row `y`; all lit off the map.

@@ -24,7 +24,8 @@ template <typename Real> [[nodiscard]] constexpr Real saturate(Real v) noexcept 
 template <typename T> [[nodiscard]] constexpr T lesser(T a, T b) noexcept { return b < a ? b : a; }
 template <typename T> [[nodiscard]] constexpr T greater(T a, T b) noexcept { return a < b ? b : a; }
 
-/// `a` if the condition holds, else `b`; both are evaluated. What formulas use that are shared with lanes of numbers, instead of ?:.
+/// `a` if the condition holds, else `b`; both are evaluated. What formulas use that are shared with lanes of numbers, instead of
+/// ?:.
 template <typename T> [[nodiscard]] constexpr T select(bool condition, T a, T b) noexcept { return condition ? a : b; }
 
 /// a == b, for storage that may be float, without the warning that engines rightly switch on for it.

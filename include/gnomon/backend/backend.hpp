@@ -12,27 +12,31 @@ namespace gnomon {
 /// Whatever it does, unorm results equal those of `scalar`, bit for bit.
 template <typename B, typename Texel, typename Kernel>
 concept backend_for = texel_format<Texel> && kernel<Kernel> &&
-    requires(const B& run, image_view<const Texel> from, image_view<Texel> to, texel_rect region, filter_scratch<Texel, Kernel>& scratch,
-             strided_span<const Texel> texels, strided_span<const float> in, strided_span<float> out, const rule& r) {
-        { run.filter_region(from, to, region, scratch) } noexcept;
-        { run.receive(texels, in, out, r) } noexcept;
-        { run.receive(from, in, in, in, out, r) } noexcept;
-    };
+                      requires(const B& run, image_view<const Texel> from, image_view<Texel> to, texel_rect region,
+                               filter_scratch<Texel, Kernel>& scratch, strided_span<const Texel> texels,
+                               strided_span<const float> in, strided_span<float> out, const rule& r) {
+                          { run.filter_region(from, to, region, scratch) } noexcept;
+                          { run.receive(texels, in, out, r) } noexcept;
+                          { run.receive(from, in, in, in, out, r) } noexcept;
+                      };
 
 /// Filters what the grid marks: filter(scalar{}, casters, soft, tiles, scratch).
 /// The scratch says which kernel.
 ///
-/// Equal to filtering the whole map, bit for bit, if every texel of `from` that is not clear was marked, with the kernel's radius as
-/// guard band, and `to` is clear where nothing is marked. A narrower guard band makes it filter the whole map. Of images that differ in
-/// size, what all share is written.
+/// Equal to filtering the whole map, bit for bit, if every texel of `from` that is not clear was marked, with the kernel's radius
+/// as guard band, and `to` is clear where nothing is marked. A narrower guard band makes it filter the whole map. Of images that
+/// differ in size, what all share is written.
 template <kernel Kernel, texel_format Texel, backend_for<Texel, Kernel> Backend>
-void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const tile_grid& tiles, filter_scratch<Texel, Kernel>& scratch) noexcept {
-    GNOMON_ASSERT(tiles.size() == from.size() && tiles.size() == to.size(), "gnomon: the tile grid and both images must have the same size");
+void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const tile_grid& tiles,
+            filter_scratch<Texel, Kernel>& scratch) noexcept {
+    GNOMON_ASSERT(tiles.size() == from.size() && tiles.size() == to.size(),
+                  "gnomon: the tile grid and both images must have the same size");
     for_each_region_to_filter<Kernel>(tiles, [&](texel_rect r) { run.filter_region(from, to, r, scratch); });
 }
 
 template <kernel Kernel, texel_format Texel, backend_for<Texel, Kernel> Backend>
-void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const depth_tiles& tiles, filter_scratch<Texel, Kernel>& scratch) noexcept {
+void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const depth_tiles& tiles,
+            filter_scratch<Texel, Kernel>& scratch) noexcept {
     filter(run, from, to, tiles.tiles(), scratch);
 }
 

@@ -8,11 +8,13 @@ namespace gnomon {
 /// The oracle: plain loops over plain numbers, the same bits on every machine and compiler.
 struct scalar {
     template <texel_format Texel, kernel Kernel>
-    void filter_region(image_view<const Texel> from, image_view<Texel> to, texel_rect region, filter_scratch<Texel, Kernel>& scratch) const noexcept {
+    void filter_region(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
+                       filter_scratch<Texel, Kernel>& scratch) const noexcept {
         gnomon::filter_region(from, to, region, scratch);
     }
     template <texel_format Texel>
-    void receive(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity, const rule& r) const noexcept {
+    void receive(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+                 const rule& r) const noexcept {
         gnomon::receive(texels, z, intensity, r);
     }
     template <texel_format Texel>

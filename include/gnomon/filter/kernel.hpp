@@ -41,10 +41,14 @@ template <kernel K> consteval bool kernel_is_sound() {
         for (const int w : K::weights) s += w;
         return s;
     }();
-    static_assert(!negative, "gnomon: a kernel with a negative weight leaves [0, 1] and breaks the depth test; use box, tent, binomial or gaussian");
-    static_assert(negative || sum == K::total, "gnomon: the weights of a kernel must sum to its total, or shadows lose or gain strength");
+    static_assert(
+        !negative,
+        "gnomon: a kernel with a negative weight leaves [0, 1] and breaks the depth test; use box, tent, binomial or gaussian");
+    static_assert(negative || sum == K::total,
+                  "gnomon: the weights of a kernel must sum to its total, or shadows lose or gain strength");
     static_assert(!lopsided, "gnomon: a kernel must be symmetric, or the shadow moves");
-    static_assert(K::total > 0 && K::total <= kernel_total_limit, "gnomon: a kernel's total must lie in 1..65536, so that both passes stay exact");
+    static_assert(K::total > 0 && K::total <= kernel_total_limit,
+                  "gnomon: a kernel's total must lie in 1..65536, so that both passes stay exact");
     return true;
 }
 
@@ -54,7 +58,8 @@ template <int Radius> using weights_of = std::array<int, static_cast<std::size_t
 
 /// Whole weights that sum to exactly kernel_total_limit and keep the proportions of `exact` to within one unit each: by largest
 /// remainder, in symmetric pairs; what is odd goes to the centre.
-template <int Radius, typename Number> constexpr weights_of<Radius> apportion(const std::array<Number, static_cast<std::size_t>(Radius + 1)>& exact) {
+template <int Radius, typename Number>
+constexpr weights_of<Radius> apportion(const std::array<Number, static_cast<std::size_t>(Radius + 1)>& exact) {
     Number sum = exact[0];
     for (std::size_t i = 1; i <= Radius; ++i) sum += 2 * exact[i];
     std::array<int, static_cast<std::size_t>(Radius + 1)> share{};
@@ -117,12 +122,13 @@ template <int Radius> struct tent {
 
 /// The row 2R of Pascal's triangle over 4^R: exact up to R = 8, to within 2^-16 a tap beyond. Standard deviation sqrt(R/2).
 template <int Radius> struct binomial {
-    static_assert(Radius >= 0 && Radius <= 30, "gnomon: binomial<R>: R is the number of taps on each side of the centre, 0..30; use gaussian for more");
+    static_assert(Radius >= 0 && Radius <= 30,
+                  "gnomon: binomial<R>: R is the number of taps on each side of the centre, 0..30; use gaussian for more");
     static constexpr int radius = Radius;
     static constexpr int total = Radius <= 8 ? 1 << (2 * Radius) : kernel_total_limit;
     static constexpr auto weights = [] {
         std::array<std::uint64_t, static_cast<std::size_t>(Radius + 1)> row{}; // from the centre outwards
-        std::uint64_t choose = 1;                                               // C(2R, k), k from the rim to the centre
+        std::uint64_t choose = 1;                                              // C(2R, k), k from the rim to the centre
         for (int k = 0; k <= Radius; ++k) {
             row[static_cast<std::size_t>(Radius - k)] = choose;
             choose = choose * static_cast<std::uint64_t>(2 * Radius - k) / static_cast<std::uint64_t>(k + 1);

@@ -55,7 +55,8 @@ template <typename T>
     const int right = u & (steps - 1), below = v & (steps - 1);
     const auto at = [&](int i, int j) { return whole(map.size()).contains(i, j) ? read(map(i, j)) : clear; };
     const filtered<Texel> corner[4] = {at(column, row), at(column + 1, row), at(column, row + 1), at(column + 1, row + 1)};
-    const double weight[4] = {1.0 * (steps - right) * (steps - below), 1.0 * right * (steps - below), 1.0 * (steps - right) * below, 1.0 * right * below};
+    const double weight[4] = {1.0 * (steps - right) * (steps - below), 1.0 * right * (steps - below), 1.0 * (steps - right) * below,
+                              1.0 * right * below};
     filtered<Texel> blend{};
     for (int c = 0; c < Texel::channels; ++c) {
         double sum = 0.0;

@@ -17,9 +17,11 @@ namespace gnomon {
 template <texel_format Texel> using line_element = std::conditional_t<Texel::channel_type::whole_codes, std::uint32_t, double>;
 
 /// The memory a filter needs beside its images: one line of wide sums, used again for every row. Nothing is read from it that the
-/// same call did not write, so it may hold anything. For a map of `width` texels: filter_scratch_size<Texel, Kernel>(width) elements.
+/// same call did not write, so it may hold anything. For a map of `width` texels: filter_scratch_size<Texel, Kernel>(width)
+/// elements.
 template <texel_format Texel, kernel Kernel> [[nodiscard]] constexpr std::size_t filter_scratch_size(int width) noexcept {
-    return (static_cast<std::size_t>(greater(width, 0)) + 2 * static_cast<std::size_t>(Kernel::radius)) * static_cast<std::size_t>(Texel::channels);
+    return (static_cast<std::size_t>(greater(width, 0)) + 2 * static_cast<std::size_t>(Kernel::radius)) *
+           static_cast<std::size_t>(Texel::channels);
 }
 
 /// Owns that memory; allocates in its constructor and never again.
@@ -64,8 +66,10 @@ void sum_columns(image_view<const Texel> from, int y, int x0, int x1, std::span<
         const bool on_map = row >= 0 && row < from.height();
         const Texel* texels = on_map ? from.row(row) : nullptr;
         add(weight, x0, inside0, outside);
-        if (on_map) add(weight, inside0, inside1, [texels](int x) -> const Texel& { return texels[x]; });
-        else add(weight, inside0, inside1, outside);
+        if (on_map)
+            add(weight, inside0, inside1, [texels](int x) -> const Texel& { return texels[x]; });
+        else
+            add(weight, inside0, inside1, outside);
         add(weight, inside1, x1, outside);
     }
     if constexpr (!channel_type::whole_codes)
@@ -84,7 +88,8 @@ void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) no
         for (int c = 0; c < channels; ++c) {
             wide sum{};
             for (int tap = 0; tap <= 2 * Kernel::radius; ++tap)
-                sum += static_cast<wide>(Kernel::weights[static_cast<std::size_t>(tap)]) * static_cast<wide>(line[static_cast<std::size_t>((x + tap) * channels + c)]);
+                sum += static_cast<wide>(Kernel::weights[static_cast<std::size_t>(tap)]) *
+                       static_cast<wide>(line[static_cast<std::size_t>((x + tap) * channels + c)]);
             if constexpr (channel_type::whole_codes)
                 to[x].stored[c] = static_cast<storage>((sum + whole / 2) / whole); // to nearest, halves upwards
             else
@@ -102,13 +107,15 @@ void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) no
 /// \pre `from` and `to` do not overlap; an image is not filtered into itself, and asking for it does nothing.
 /// Cost: 2 (2R+1) multiply-adds a channel of a texel, and half of that for 2R columns beside the region.
 template <kernel Kernel, texel_format Texel>
-void filter_region(std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, texel_rect region, filter_scratch<Texel, Kernel>& scratch) noexcept {
+void filter_region(std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, texel_rect region,
+                   filter_scratch<Texel, Kernel>& scratch) noexcept {
     static_assert(kernel_is_sound<Kernel>());
     GNOMON_ASSERT(from.data() != to.data() || region.empty(), "gnomon: a filter reads one image and writes another");
     if (from.data() == to.data()) return;
     region = clip(clip(region, to.size()), from.size());
     [[maybe_unused]] const auto needed = filter_scratch_size<Texel, Kernel>(region.width());
-    GNOMON_ASSERT(region.empty() || scratch.line().size() >= needed, "gnomon: the filter's scratch is narrower than the region; make it for the map's width");
+    GNOMON_ASSERT(region.empty() || scratch.line().size() >= needed,
+                  "gnomon: the filter's scratch is narrower than the region; make it for the map's width");
     // Too narrow a scratch cuts the region into strips; one without room for a single texel leaves it alone.
     const int widest = static_cast<int>(scratch.line().size() / static_cast<std::size_t>(Texel::channels)) - 2 * Kernel::radius;
     if (region.empty() || widest <= 0) return;

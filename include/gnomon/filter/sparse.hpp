@@ -7,7 +7,8 @@
 namespace gnomon {
 
 /// Calls f(texel_rect) for what a filter of this kernel has to write. Where the grid was marked with a guard band narrower than
-/// the kernel's radius, that is the whole map: slower, never wrong. (Then the whole result is to be cleared before the next frame, too.)
+/// the kernel's radius, that is the whole map: slower, never wrong. (Then the whole result is to be cleared before the next
+/// frame, too.)
 template <kernel Kernel, typename F> void for_each_region_to_filter(const tile_grid& tiles, F&& f) {
     if (!tiles.empty() && tiles.guard() < Kernel::radius) return f(whole(tiles.size()));
     for_each_region(tiles, f);

@@ -22,9 +22,7 @@ struct bounding_box {
     glm::dvec3 lower{0.0};
     glm::dvec3 upper{0.0};
 
-    [[nodiscard]] bool empty() const noexcept {
-        return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z);
-    }
+    [[nodiscard]] bool empty() const noexcept { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
     /// Corner `i` of 8: bit 0, 1, 2 of `i` picks upper x, y, z.
     [[nodiscard]] glm::dvec3 corner(int i) const noexcept {
         return {i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z};

@@ -22,7 +22,8 @@ namespace gnomon {
 /// sphere: its size does not change when the camera turns.
 class directional_light {
   public:
-    /// `direction` is the way the light travels, of any length. `up` appears as +y on the map; see detail::light_axes for when it cannot.
+    /// `direction` is the way the light travels, of any length. `up` appears as +y on the map; see detail::light_axes for when it
+    /// cannot.
     explicit directional_light(const glm::dvec3& direction, const glm::dvec3& up = glm::dvec3(0.0, 1.0, 0.0)) noexcept
         : axes_(direction, up) {}
 
@@ -40,7 +41,8 @@ class directional_light {
         add_receiver(box);
     }
 
-    /// Covered by the depth range alone: off the map there is no shadow, but a receiver beyond the far plane would be in all of them.
+    /// Covered by the depth range alone: off the map there is no shadow, but a receiver beyond the far plane would be in all of
+    /// them.
     void add_receiver(const bounding_sphere& ball) noexcept {
         if (!ball.empty()) z_.include(glm::dot(ball.centre, axes_.forward), ball.radius);
     }
@@ -48,8 +50,8 @@ class directional_light {
         if (!box.empty()) include(z_, box, axes_.forward);
     }
 
-    /// The fit, with at least `margin` free texels on every side of the casters: the kernel's radius, so that soft edges stay on the map.
-    /// Invalid without casters, with casters that are all one point, and if the margins leave less than two texels.
+    /// The fit, with at least `margin` free texels on every side of the casters: the kernel's radius, so that soft edges stay on
+    /// the map. Invalid without casters, with casters that are all one point, and if the margins leave less than two texels.
     [[nodiscard]] light_frame frame(extent size, int margin = 0) const noexcept {
         const double width = size.width, height = size.height, margins = 2.0 * greater(margin, 0);
         if (!(width - margins >= 2.0 && height - margins >= 2.0) || !(x_.lower <= x_.upper)) return {};

@@ -38,7 +38,8 @@ struct map_bounds {
     }
 
     [[nodiscard]] light_footprint rounded(extent size) const noexcept {
-        const texel_rect texels = clip(enclosing_texels(x0 - texel_slack, y0 - texel_slack, x1 + texel_slack, y1 + texel_slack), size);
+        const texel_rect texels =
+            clip(enclosing_texels(x0 - texel_slack, y0 - texel_slack, x1 + texel_slack, y1 + texel_slack), size);
         if (texels.empty()) return {};
         return {texels, {static_cast<float>(saturate(z0 - depth_slack)), static_cast<float>(saturate(z1 + depth_slack))}};
     }
@@ -49,7 +50,8 @@ struct map_bounds {
 [[nodiscard]] inline glm::dvec3 finite(const glm::dvec3& v) noexcept { return {finite(v.x), finite(v.y), finite(v.z)}; }
 } // namespace detail
 
-/// What of the map a box can touch, as a caster or as a receiver: every point of it lies in, and no side is more than 1 + 1/1024 texel too far out.
+/// What of the map a box can touch, as a caster or as a receiver: every point of it lies in, and no side is more than 1 + 1/1024
+/// texel too far out.
 ///
 /// A directional light's near plane cuts nothing off, since casters before it are kept at depth 0. A spot light's does: the box is
 /// clipped exactly, and one wholly before the near plane or behind the light is empty. Beyond the far plane the depth is 1. Empty

@@ -45,7 +45,8 @@ struct map_point {
 namespace detail {
 [[nodiscard]] inline glm::dvec4 row(const glm::dmat4& m, int i) noexcept { return {m[0][i], m[1][i], m[2][i], m[3][i]}; }
 
-[[nodiscard]] inline glm::dmat4 from_rows(const glm::dvec4& a, const glm::dvec4& b, const glm::dvec4& c, const glm::dvec4& d) noexcept {
+[[nodiscard]] inline glm::dmat4 from_rows(const glm::dvec4& a, const glm::dvec4& b, const glm::dvec4& c,
+                                          const glm::dvec4& d) noexcept {
     return {a.x, b.x, c.x, d.x, a.y, b.y, c.y, d.y, a.z, b.z, c.z, d.z, a.w, b.w, c.w, d.w};
 }
 
@@ -69,7 +70,8 @@ class light_frame {
 
     light_frame() = default;
 
-    /// From the matrix described on top of this header. `near_w` and `far_w` are W on the planes of depth 0 and 1: both 1 if affine.
+    /// From the matrix described on top of this header. `near_w` and `far_w` are W on the planes of depth 0 and 1: both 1 if
+    /// affine.
     light_frame(const glm::dmat4& world_to_map, extent size, double near_w, double far_w) noexcept {
         for (int i = 0; i < 4; ++i)
             for (int k = 0; k < 4; ++k)
@@ -85,9 +87,9 @@ class light_frame {
 
     /// From the matrix with which an engine draws its own shadow map, orthographic or perspective; see `clip_space`.
     ///
-    /// The depth of a perspective matrix is made linear again. Its near and far plane are recovered from the matrix, and are as good
-    /// as that is: with floats and far/near = 1e4 about 1e-3 of the range. Casters and receivers share whatever they come to.
-    /// Invalid for a far plane at infinity, for oblique near planes, and for sheared or mirrored w.
+    /// The depth of a perspective matrix is made linear again. Its near and far plane are recovered from the matrix, and are as
+    /// good as that is: with floats and far/near = 1e4 about 1e-3 of the range. Casters and receivers share whatever they come
+    /// to. Invalid for a far plane at infinity, for oblique near planes, and for sheared or mirrored w.
     [[nodiscard]] static light_frame from_matrix(const glm::dmat4& world_to_clip, extent size, clip_space clip) noexcept;
 
     [[nodiscard]] bool valid() const noexcept { return far_w_ > 0.0; }

@@ -25,7 +25,8 @@ inline constexpr double raster_depth_error = 1.0 / 33554432.0;
 
 /// Knows where something may be: a tile_grid, a depth_tiles, or any callable that answers for a texel_rect.
 template <typename T>
-concept marked_texels = requires(const T& where, texel_rect r) { where.touches(r); } || requires(const T& where, texel_rect r) { where(r); };
+concept marked_texels =
+    requires(const T& where, texel_rect r) { where.touches(r); } || requires(const T& where, texel_rect r) { where(r); };
 
 /// The region without a limit, and the test that skips nothing.
 inline constexpr texel_rect everywhere{-(1 << 29), -(1 << 29), 1 << 29, 1 << 29};
@@ -61,8 +62,8 @@ struct projected_polygon {
         }
     }
 
-    /// Its corners on the map, snapped. False if nothing is left to draw, or if a corner was not finite: such a one is above no plane,
-    /// so it has been cut off, and the cut has left NaN in W.
+    /// Its corners on the map, snapped. False if nothing is left to draw, or if a corner was not finite: such a one is above no
+    /// plane, so it has been cut off, and the cut has left NaN in W.
     [[nodiscard]] bool snap(fixed_point* snapped) const noexcept {
         for (int i = 0; i < count; ++i) {
             const glm::dvec4& h = corner[i];
@@ -197,7 +198,8 @@ light_footprint rasterize(const triangle_mesh& mesh, const light_frame& light, t
 ///
 /// Depths are clamped to [0, 1]. The order of meshes and triangles does not show: see texel::cast. Returns what was touched.
 template <texel_format Texel>
-light_footprint cast_triangles(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light, faces side = faces::both) {
+light_footprint cast_triangles(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
+                               faces side = faces::both) {
     return rasterize(mesh, light, whole(texels.size()), side, [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s)); });
 }
 
@@ -206,17 +208,19 @@ template <texel_format Texel>
     requires(Texel::effects.translucency)
 light_footprint cast_triangles(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light, float opacity,
                                faces side = faces::both) {
-    return rasterize(mesh, light, whole(texels.size()), side, [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s, opacity)); });
+    return rasterize(mesh, light, whole(texels.size()), side,
+                     [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s, opacity)); });
 }
 
 /// Ends the shadows in a map at the first receiver behind each caster. Call it when all casters are in: see texel::bound.
 ///
-/// `where` may skip triangles where nothing casts: bound_triangles(texels, ground, light, faces::both, tiles). `region` limits the
-/// work for receivers that are larger than that, such as a ground. Receivers before the near plane end nothing. Returns what was touched, caster or not.
+/// `where` may skip triangles where nothing casts: bound_triangles(texels, ground, light, faces::both, tiles). `region` limits
+/// the work for receivers that are larger than that, such as a ground. Receivers before the near plane end nothing. Returns what
+/// was touched, caster or not.
 template <texel_format Texel, marked_texels Where = touches_everything>
     requires(Texel::effects.far_bound)
-light_footprint bound_triangles(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light, faces side = faces::both,
-                                const Where& where = {}, texel_rect region = everywhere) {
+light_footprint bound_triangles(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
+                                faces side = faces::both, const Where& where = {}, texel_rect region = everywhere) {
     const auto bound = [&](int x, int y, float z) {
         if (z >= 0.0f) texels(x, y).bound(z);
     };

@@ -1,9 +1,10 @@
 // gnomon: soft shadow maps. Which texels a polygon covers, in exact integers.
 //
 // A triangle owns the texels whose centres it holds. Corners are first snapped to 1/256 texel; from there on nothing is rounded.
-// On every row that it crosses, an edge names one integer: the first column whose centre is not left of it. A polygon is the columns
-// between its edges' integers. So two triangles that share an edge share the integers, and no gap and no double write can be
-// expressed. It is also the top-left rule: a centre on a left or top edge is in, on a right or bottom edge it is out (top: small y).
+// On every row that it crosses, an edge names one integer: the first column whose centre is not left of it. A polygon is the
+// columns between its edges' integers. So two triangles that share an edge share the integers, and no gap and no double write can
+// be expressed. It is also the top-left rule: a centre on a left or top edge is in, on a right or bottom edge it is out (top:
+// small y).
 #pragma once
 
 #include <gnomon/rect.hpp>

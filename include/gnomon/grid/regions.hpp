@@ -31,9 +31,10 @@ template <typename F> void for_each_region(const tile_grid& grid, F&& f) {
 
 /// The reference engine's merge: a run is continued while the next row *contains* it; what is left of that row comes later.
 ///
-/// `scratch` holds at least words_for(columns) * rows words, whatever they were; if it is shorter, this is for_each_tile_rect. Also disjoint and exact, but it cuts a wide run in two
-/// to extend a narrow one, and at every cut a filter sums a kernel's width of columns twice. Over all 65,536 grids of 4x4 tiles it gives
-/// 278,964 rectangles of 403,342 rows, for_each_tile_rect 287,744 of 327,680, where 275,208 and 327,680 are the fewest possible.
+/// `scratch` holds at least words_for(columns) * rows words, whatever they were; if it is shorter, this is for_each_tile_rect.
+/// Also disjoint and exact, but it cuts a wide run in two to extend a narrow one, and at every cut a filter sums a kernel's width
+/// of columns twice. Over all 65,536 grids of 4x4 tiles it gives 278,964 rectangles of 403,342 rows, for_each_tile_rect 287,744
+/// of 327,680, where 275,208 and 327,680 are the fewest possible.
 template <typename F> void for_each_tile_rect_greedy(const tile_grid& grid, std::span<bit_word> scratch, F&& f) {
     const int words = words_for(grid.columns());
     const bool enough = scratch.size() >= static_cast<std::size_t>(words) * static_cast<std::size_t>(grid.rows());

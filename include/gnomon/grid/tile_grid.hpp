@@ -117,7 +117,9 @@ class tile_grid {
   private:
     [[nodiscard]] int tiles_along(int texels) const noexcept { return texels == 0 ? 0 : (texels - 1) / tile_ + 1; }
     [[nodiscard]] int last_texel(int tiles, int all, int texels) const noexcept { return tiles >= all ? texels : tiles * tile_; }
-    [[nodiscard]] std::size_t word_offset(int y) const noexcept { return static_cast<std::size_t>(words_for(columns_)) * static_cast<std::size_t>(y); }
+    [[nodiscard]] std::size_t word_offset(int y) const noexcept {
+        return static_cast<std::size_t>(words_for(columns_)) * static_cast<std::size_t>(y);
+    }
     [[nodiscard]] bit_row mutable_row(int y) noexcept { return {words_.data() + word_offset(y), columns_}; }
 
     void merge(int into, int from) noexcept {
@@ -132,7 +134,8 @@ class tile_grid {
             bits.words[w] = here | here << 1 | here >> 1 | left >> (bits_per_word - 1) | right << (bits_per_word - 1);
             left = here;
         }
-        if (bits.size % bits_per_word != 0) bits.words[bits.size / bits_per_word] &= (bit_word{1} << (bits.size % bits_per_word)) - 1;
+        if (bits.size % bits_per_word != 0)
+            bits.words[bits.size / bits_per_word] &= (bit_word{1} << (bits.size % bits_per_word)) - 1;
     }
 
     extent size_{};

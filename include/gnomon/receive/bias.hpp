@@ -26,13 +26,13 @@ struct bias {
     /// Moves the receiver this much more of the depth range to the favoured side: towards the light with `light`, away from it with
     /// `shadow`, and not at all with `none`. A host's own bias in world units over the light's range goes here.
     float depth = 0.0f;
-    /// The caster's depth was a code of the channel before it was stored, so storing it rounded nothing: h is 0, and the bias is the
-    /// least there is without false shadow.
+    /// The caster's depth was a code of the channel before it was stored, so storing it rounded nothing: h is 0, and the bias is
+    /// the least there is without false shadow.
     bool caster_is_code = false;
 };
 
-/// No false shadow for any caster depth s and receiver z <= s. In texels of depth_mask shadow is kept, with q = 2 max_error and m the
-/// exact share of the footprint, for every z beyond
+/// No false shadow for any caster depth s and receiver z <= s. In texels of depth_mask shadow is kept, with q = 2 max_error and m
+/// the exact share of the footprint, for every z beyond
 ///     unorm   s + q (1+r+q)/m + q, where r = max(1-z, 0)
 ///     half    s + 6 q, for m >= 2^-10
 ///     float   s + 16 q
@@ -64,8 +64,10 @@ template <texel_format Texel> [[nodiscard]] constexpr biased apply(const bias& b
     constexpr float own = channel_type::whole_codes ? 0.0f : 0x1p-22f; // two operations and the conversion of a blended sample
     const float towards = b.towards == bias_towards::light ? 1.0f : (b.towards == bias_towards::shadow ? -1.0f : 0.0f);
     const float k = towards * static_cast<float>(b.roundings);
-    const real lower = (static_cast<real>(e) - static_cast<real>(k * depth.absolute)) * static_cast<real>(1.0f - (k * depth.relative + towards * own));
-    const real upper = (static_cast<real>(m) + static_cast<real>(k * mask.absolute)) * static_cast<real>(1.0f + (k * mask.relative + towards * own));
+    const real lower = (static_cast<real>(e) - static_cast<real>(k * depth.absolute)) *
+                       static_cast<real>(1.0f - (k * depth.relative + towards * own));
+    const real upper = (static_cast<real>(m) + static_cast<real>(k * mask.absolute)) *
+                       static_cast<real>(1.0f + (k * mask.relative + towards * own));
     const float caster = b.caster_is_code ? 0.0f : caster_depth_error<Texel>;
     return {static_cast<double>(lower), static_cast<double>(upper), z - towards * (b.depth + caster)};
 }

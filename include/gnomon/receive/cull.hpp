@@ -16,6 +16,8 @@ namespace gnomon {
     const texel_rect read = grow(footprint, 1);
     return depth.empty() || towards != bias_towards::light ? tiles.touches(read) : tiles.touches(read, depth.farthest);
 }
-[[nodiscard]] inline bool casters_reach(const tile_grid& tiles, texel_rect footprint) noexcept { return tiles.touches(grow(footprint, 1)); }
+[[nodiscard]] inline bool casters_reach(const tile_grid& tiles, texel_rect footprint) noexcept {
+    return tiles.touches(grow(footprint, 1));
+}
 
 } // namespace gnomon

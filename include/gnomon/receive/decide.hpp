@@ -22,7 +22,8 @@ struct rule {
 namespace detail {
 
 /// What is left of a shadow at `z`, from 1 before its far bound to 0 behind it; 1 if no receiver bounds it. \pre mask > 0
-template <texel_format Texel> [[nodiscard]] constexpr double before_far_bound(const filtered<Texel>& texel, float z, const rule& r) noexcept {
+template <texel_format Texel>
+[[nodiscard]] constexpr double before_far_bound(const filtered<Texel>& texel, float z, const rule& r) noexcept {
     if (!(texel.far_bound() > 0.0)) return 1.0;
     const biased bound = apply<Texel>(r.far_bound, texel.far_bound(), texel.mask(), z);
     const double depth = static_cast<double>(bound.z);
@@ -38,7 +39,8 @@ template <texel_format Texel> [[nodiscard]] constexpr double before_far_bound(co
 ///
 /// Total: m = 0, negative or NaN is lit; z <= 0 and NaN is lit; z = +inf is behind everything; any bit pattern gives [0, 1].
 /// Exact for the stored codes of unorm texels: no rounding happens before the comparison is decided.
-template <texel_format Texel> [[nodiscard]] constexpr float shadow(const filtered<Texel>& texel, float z, const rule& r = {}) noexcept {
+template <texel_format Texel>
+[[nodiscard]] constexpr float shadow(const filtered<Texel>& texel, float z, const rule& r = {}) noexcept {
     using representation_type = typename Texel::representation_type;
     if (!(texel.mask() > 0.0) || !(z > 0.0f) || (r.lit_beyond && z > 1.0f)) return 0.0f;
     const biased near_side = apply<Texel>(r.caster, texel.depth(), texel.mask(), z);
@@ -55,14 +57,16 @@ template <texel_format Texel> [[nodiscard]] constexpr float shadow(const Texel& 
 
 /// Depth of the caster behind a filtered texel, in [0, 1], for tools and pictures: s = 1 - e/m, and 1, the far plane, if m = 0.
 ///
-/// Correctly rounded for stored texels. Exact up to that if one depth was filtered with clear texels, a weighted mean if several were (Salzman
-/// 2007, "Disadvantages"). A unorm pair is within (2-s)/(2M) of the depth that was filtered, M the stored mask code: at M = 1 an 8-bit
-/// depth carries no information. Decisions never use it.
+/// Correctly rounded for stored texels. Exact up to that if one depth was filtered with clear texels, a weighted mean if several
+/// were (Salzman 2007, "Disadvantages"). A unorm pair is within (2-s)/(2M) of the depth that was filtered, M the stored mask
+/// code: at M = 1 an 8-bit depth carries no information. Decisions never use it.
 template <texel_format Texel> [[nodiscard]] constexpr float caster_depth(const filtered<Texel>& texel) noexcept {
     const double e = texel.depth(), m = texel.mask();
     if (!(m > 0.0)) return 1.0f;
     return saturate(static_cast<float>((m - e) / m)); // never so close to a tie of floats that rounding twice would show
 }
-template <texel_format Texel> [[nodiscard]] constexpr float caster_depth(const Texel& texel) noexcept { return caster_depth(read(texel)); }
+template <texel_format Texel> [[nodiscard]] constexpr float caster_depth(const Texel& texel) noexcept {
+    return caster_depth(read(texel));
+}
 
 } // namespace gnomon

@@ -1,4 +1,5 @@
-// gnomon: soft shadow maps. A dynamic shadow on light that was precomputed (Salzman 2007, "Integrating with Single-pass Lightmaps").
+// gnomon: soft shadow maps. A dynamic shadow on light that was precomputed (Salzman 2007, "Integrating with Single-pass
+// Lightmaps").
 #pragma once
 
 #include <gnomon/texel/image.hpp>
@@ -17,8 +18,10 @@ namespace gnomon {
     return greater(ambient, lesser(light, static_cast<float>(left)));
 }
 
-/// One colour channel of a lightmap, in place or not: result[i] = mask_light(light[i], shadow[i], ambient). The shortest span counts.
-inline void mask_light(strided_span<const float> light, strided_span<const float> shadow, float ambient, strided_span<float> result) noexcept {
+/// One colour channel of a lightmap, in place or not: result[i] = mask_light(light[i], shadow[i], ambient). The shortest span
+/// counts.
+inline void mask_light(strided_span<const float> light, strided_span<const float> shadow, float ambient,
+                       strided_span<float> result) noexcept {
     const int count = lesser(light.size(), lesser(shadow.size(), result.size()));
     for (int i = 0; i < count; ++i) result[i] = mask_light(light[i], shadow[i], ambient);
 }

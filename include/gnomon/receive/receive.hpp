@@ -9,7 +9,8 @@
 namespace gnomon {
 
 /// The texel format of a row of texels: of a strided_span, std::span, std::vector or anything else with data() and size().
-template <typename Row> using texel_in = std::remove_const_t<typename decltype(strided_span(std::declval<const Row&>()))::element_type>;
+template <typename Row>
+using texel_in = std::remove_const_t<typename decltype(strided_span(std::declval<const Row&>()))::element_type>;
 
 template <typename Row>
 concept texel_row = texel_format<texel_in<Row>>;

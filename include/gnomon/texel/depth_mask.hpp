@@ -24,7 +24,9 @@ struct depth_mask {
     template <channel Channel> [[nodiscard]] static constexpr rounding_error depth_rounding() noexcept { return Channel::rounding; }
 
     /// Premultiplied reversed depth e from the filtered depth code, in codes: here, itself.
-    template <typename Real> [[nodiscard]] static constexpr Real complement(Real depth_code, Real /*scale*/) noexcept { return depth_code; }
+    template <typename Real> [[nodiscard]] static constexpr Real complement(Real depth_code, Real /*scale*/) noexcept {
+        return depth_code;
+    }
 
     /// Is a receiver at depth `z` behind the caster of a filtered pair (e, m)?   e > m (1-z)
     ///
@@ -33,7 +35,7 @@ struct depth_mask {
     /// form rounds nothing when z >= 1/2, the second rounds m - e only where that cannot change the answer.
     /// NaN anywhere compares false: lit. z = +inf counts as behind everything, z = -inf as before everything.
     template <typename Real> [[nodiscard]] static constexpr bool behind(Real e, Real m, Real z) noexcept {
-        return select(z < Real(0.5), m * z > m - e, e > m * (Real(1) - z));
+        return select(z<Real(0.5), m * z> m - e, e > m * (Real(1) - z));
     }
 };
 

@@ -5,9 +5,11 @@ namespace gnomon {
 
 /// Simulate only what the scene calls for: an effect that is off costs no byte of a texel and no instruction.
 struct effects {
-    /// A third number that ends the shadow at the first receiver behind the caster (Salzman 2007, "Integrating with Single-pass Lightmaps").
+    /// A third number that ends the shadow at the first receiver behind the caster (Salzman 2007, "Integrating with Single-pass
+    /// Lightmaps").
     bool far_bound = false;
-    /// A contribution that replaces the mask as intensity, so that a caster may be translucent (Salzman 2007, "Possible Extensions").
+    /// A contribution that replaces the mask as intensity, so that a caster may be translucent (Salzman 2007, "Possible
+    /// Extensions").
     bool translucency = false;
 
     friend constexpr bool operator==(effects, effects) = default;

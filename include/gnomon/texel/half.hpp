@@ -26,7 +26,8 @@ namespace gnomon {
     // The significand in units of the last place that survives; a carry out of the mantissa moves into the exponent by itself.
     const bool normal = exponent >= -14;
     const int dropped = normal ? 42 : 28 - exponent;
-    const std::uint64_t significand = normal ? (static_cast<std::uint64_t>(exponent + 15) << 52 | fraction) : (1ull << 52 | fraction);
+    const std::uint64_t significand =
+        normal ? (static_cast<std::uint64_t>(exponent + 15) << 52 | fraction) : (1ull << 52 | fraction);
     const std::uint64_t kept = significand >> dropped;
     const std::uint64_t rest = significand & ((1ull << dropped) - 1);
     const std::uint64_t tie = 1ull << (dropped - 1);

@@ -58,9 +58,11 @@ template <typename T> class image_view {
 
     constexpr image_view() noexcept = default;
     image_view(T* data, extent size, std::ptrdiff_t stride) noexcept
-        : data_(data), size_{data != nullptr ? greater(size.width, 0) : 0, data != nullptr ? greater(size.height, 0) : 0}, stride_(stride) {
+        : data_(data), size_{data != nullptr ? greater(size.width, 0) : 0, data != nullptr ? greater(size.height, 0) : 0},
+          stride_(stride) {
         GNOMON_ASSERT(data != nullptr || size.empty(), "gnomon: an image_view that is not empty needs memory");
-        GNOMON_ASSERT(stride % static_cast<std::ptrdiff_t>(alignof(T)) == 0, "gnomon: the rows of an image_view must be aligned for its texels");
+        GNOMON_ASSERT(stride % static_cast<std::ptrdiff_t>(alignof(T)) == 0,
+                      "gnomon: the rows of an image_view must be aligned for its texels");
     }
     /// Rows that follow each other without a gap.
     image_view(T* data, extent size) noexcept : image_view(data, size, static_cast<std::ptrdiff_t>(sizeof(T)) * size.width) {}
@@ -113,7 +115,8 @@ template <typename T> class image_view {
 /// An image that owns its memory; every row begins on a 64-byte boundary. Allocates in its constructors and never again.
 /// A negative side counts as zero. A moved-from image is empty.
 template <typename T> class image {
-    static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 64, "gnomon: image<T> holds plain texels: T must be trivially copyable");
+    static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 64,
+                  "gnomon: image<T> holds plain texels: T must be trivially copyable");
 
   public:
     image() = default;
@@ -124,7 +127,9 @@ template <typename T> class image {
     }
     image(const image&) = default;
     image& operator=(const image&) = default;
-    image(image&& other) noexcept : size_(other.size_), lines_per_row_(other.lines_per_row_), lines_(std::move(other.lines_)) { other.size_ = {}; }
+    image(image&& other) noexcept : size_(other.size_), lines_per_row_(other.lines_per_row_), lines_(std::move(other.lines_)) {
+        other.size_ = {};
+    }
     image& operator=(image&& other) noexcept {
         if (this == &other) return *this;
         size_ = other.size_;
@@ -146,7 +151,9 @@ template <typename T> class image {
         std::byte bytes[64];
     };
 
-    [[nodiscard]] static std::size_t lines_of(int width) noexcept { return (static_cast<std::size_t>(width) * sizeof(T) + sizeof(line) - 1) / sizeof(line); }
+    [[nodiscard]] static std::size_t lines_of(int width) noexcept {
+        return (static_cast<std::size_t>(width) * sizeof(T) + sizeof(line) - 1) / sizeof(line);
+    }
     [[nodiscard]] std::ptrdiff_t stride() const noexcept { return static_cast<std::ptrdiff_t>(lines_per_row_ * sizeof(line)); }
 
     extent size_{};

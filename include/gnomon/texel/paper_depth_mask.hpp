@@ -26,12 +26,14 @@ struct paper_depth_mask {
     }
 
     /// Premultiplied reversed depth e = 1 - d from the filtered depth code, in codes.
-    template <typename Real> [[nodiscard]] static constexpr Real complement(Real depth_code, Real scale) noexcept { return scale - depth_code; }
+    template <typename Real> [[nodiscard]] static constexpr Real complement(Real depth_code, Real scale) noexcept {
+        return scale - depth_code;
+    }
 
     /// Is a receiver at depth `z` behind the caster of a filtered pair?   z > s = (d-1)/m + 1
     ///
-    /// The paper's own division, in the paper's own single precision. It needs a case that depth_mask does not: a bias towards shadow
-    /// may leave m <= 0, where everything is behind a caster that has any depth.
+    /// The paper's own division, in the paper's own single precision. It needs a case that depth_mask does not: a bias towards
+    /// shadow may leave m <= 0, where everything is behind a caster that has any depth.
     template <typename Real> [[nodiscard]] static constexpr bool behind(Real e, Real m, Real z) noexcept {
         return select(m > Real(0), static_cast<float>(z) > static_cast<float>(-e) / static_cast<float>(m) + 1.0f, e > Real(0));
     }
