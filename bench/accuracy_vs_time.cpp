@@ -2,7 +2,8 @@
 //
 // Copying the same bytes is the floor, in the same run. Use --benchmark_enable_random_interleaving=true and --benchmark_repetitions=9, and
 // compare medians of cpu time within one run only. Counters: bytes (a texel), rmse and worst (intensity against the exact
-// filter in double, receivers 2 % of the range behind their caster), tiles (share of the map that was filtered).
+// filter in double, receivers 2 % of the range behind their caster, bias towards light; with suffix _shadow, towards shadow),
+// tiles (share of the map that was filtered).
 #include <gnomon/gnomon.hpp>
 
 #include <benchmark/benchmark.h>
@@ -30,7 +31,8 @@ std::vector<disc> scene() {
     std::vector<disc> discs;
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column)
-            discs.push_back({96 + 256 * column, 96 + 256 * row, 12 + 4 * row + 9 * column, 0.1f + 0.05f * static_cast<float>(4 * row + column)});
+            discs.push_back({96 + 256 * column, 96 + 256 * row, 12 + 4 * row + 9 * column,
+                             0.1f + 0.05f * static_cast<float>(4 * row + column)});
     return discs;
 }
 
@@ -52,12 +54,16 @@ double exact_mask(const disc& d, int x, int y) {
     double sum = 0.0;
     for (int j = -soft::radius; j <= soft::radius; ++j)
         for (int i = -soft::radius; i <= soft::radius; ++i)
-            if (covers(d, x + i, y + j)) sum += 1.0 * soft::weights[static_cast<std::size_t>(i + soft::radius)] * soft::weights[static_cast<std::size_t>(j + soft::radius)];
+            if (covers(d, x + i, y + j))
+                sum += 1.0 * soft::weights[static_cast<std::size_t>(i + soft::radius)] *
+                       soft::weights[static_cast<std::size_t>(j + soft::radius)];
     return sum / (1.0 * soft::total * soft::total);
 }
 
-template <typename Texel> void report_error(benchmark::State& state, const soft_shadow_map<Texel, soft>& map) {
-    double squares = 0.0, worst = 0.0;
+template <typename Texel>
+void report_error(benchmark::State& state, soft_shadow_map<Texel, soft>& map, bias towards, const char* rmse, const char* worst) {
+    map.decision.caster = towards;
+    double squares = 0.0, largest = 0.0;
     std::size_t count = 0;
     for (const disc& d : scene()) {
         const texel_rect reach = grow(box_of(d), soft::radius);
@@ -65,11 +71,16 @@ template <typename Texel> void report_error(benchmark::State& state, const soft_
             for (int x = reach.x0; x < reach.x1; ++x, ++count) {
                 const double error = static_cast<double>(map.shadow(x, y, d.depth + gap)) - exact_mask(d, x, y);
                 squares += error * error;
-                worst = std::max(worst, std::abs(error));
+                largest = std::max(largest, std::abs(error));
             }
     }
-    state.counters["rmse"] = std::sqrt(squares / static_cast<double>(count));
-    state.counters["worst"] = worst;
+    state.counters[rmse] = std::sqrt(squares / static_cast<double>(count));
+    state.counters[worst] = largest;
+}
+
+template <typename Texel> void report(benchmark::State& state, soft_shadow_map<Texel, soft>& map) {
+    report_error(state, map, towards_light, "rmse", "worst");
+    report_error(state, map, towards_shadow, "rmse_shadow", "worst_shadow");
     state.counters["bytes"] = sizeof(Texel);
     state.SetItemsProcessed(state.iterations() * size.width * size.height);
 }
@@ -84,7 +95,7 @@ template <typename Texel> void filter_whole(benchmark::State& state) {
         filter_region(map.casters(), result.view(), whole(size), scratch);
         benchmark::ClobberMemory();
     }
-    report_error(state, map);
+    report(state, map);
 }
 
 template <typename Texel> void filter_tiles(benchmark::State& state) {
@@ -94,7 +105,7 @@ template <typename Texel> void filter_tiles(benchmark::State& state) {
         map.filter();
         benchmark::ClobberMemory();
     }
-    report_error(state, map);
+    report(state, map);
     state.counters["tiles"] = map.tiles().tiles().count() / (1.0 * map.tiles().tiles().columns() * map.tiles().tiles().rows());
 }
 
@@ -110,7 +121,7 @@ template <typename Texel> void receive_rows(benchmark::State& state) {
             benchmark::DoNotOptimize(intensity.data());
             benchmark::ClobberMemory();
         }
-    report_error(state, map);
+    report(state, map);
 }
 
 template <typename Texel> void copy_floor(benchmark::State& state) {
@@ -127,10 +138,10 @@ template <typename Texel> void copy_floor(benchmark::State& state) {
 
 } // namespace
 
-#define GNOMON_BENCH_FORMAT(texel)            \
-    BENCHMARK_TEMPLATE(copy_floor, texel);    \
-    BENCHMARK_TEMPLATE(filter_whole, texel);  \
-    BENCHMARK_TEMPLATE(filter_tiles, texel);  \
+#define GNOMON_BENCH_FORMAT(texel)                                                                                                 \
+    BENCHMARK_TEMPLATE(copy_floor, texel);                                                                                         \
+    BENCHMARK_TEMPLATE(filter_whole, texel);                                                                                       \
+    BENCHMARK_TEMPLATE(filter_tiles, texel);                                                                                       \
     BENCHMARK_TEMPLATE(receive_rows, texel)
 
 using paper8 = texel<unorm8, paper_depth_mask>;

@@ -48,7 +48,7 @@ int main() {
     gnomon::soft_shadow_map<gnomon::rg8, gnomon::binomial<3>> map({.width = 512, .height = 512, .tile = 16});
     map.cast({.x0 = 200, .y0 = 200, .x1 = 300, .y1 = 300}, 0.4f);
     map.filter();
-    std::printf("lit %.3f umbra %.3f penumbra %.3f in front %.3f\n",
-        static_cast<double>(map.shadow(10, 10, 0.9f)), static_cast<double>(map.shadow(250, 250, 0.9f)),
-        static_cast<double>(map.shadow(199, 250, 0.9f)), static_cast<double>(map.shadow(250, 250, 0.2f)));
+    std::printf("lit %.3f umbra %.3f penumbra %.3f in front %.3f\n", static_cast<double>(map.shadow(10, 10, 0.9f)),
+                static_cast<double>(map.shadow(250, 250, 0.9f)), static_cast<double>(map.shadow(199, 250, 0.9f)),
+                static_cast<double>(map.shadow(250, 250, 0.2f)));
 }

@@ -19,7 +19,8 @@ constexpr float lift = 1e-3f; ///< off the surface, so that it does not hide its
 
 /// Point `i` of `n` on the unit disc, evenly: a sunflower (Vogel 1979). The same for every texel, so the light has no grain.
 glm::vec2 on_disc(int i, int n, float turned = 0.0f) {
-    const float r = std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(n)), turn = 2.3999632f * static_cast<float>(i) + turned;
+    const float r = std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(n)),
+                turn = 2.3999632f * static_cast<float>(i) + turned;
     return {r * std::cos(turn), r * std::sin(turn)};
 }
 
@@ -58,7 +59,8 @@ glm::vec3 torch_on(const torch& fire, const ray_world& world, const glm::vec3& p
 
 } // namespace
 
-glm::vec3 key_light_on(const scene& s, const ray_world& world, const glm::vec3& point, const glm::vec3& normal, int samples, float turned) {
+glm::vec3 key_light_on(const scene& s, const ray_world& world, const glm::vec3& point, const glm::vec3& normal, int samples,
+                       float turned) {
     glm::vec3 to_light = -glm::normalize(s.key.direction);
     float distance = 20.0f, strength = 1.0f;
     if (const auto& lamp = s.key.cone) {
@@ -66,7 +68,8 @@ glm::vec3 key_light_on(const scene& s, const ray_world& world, const glm::vec3& 
         distance = glm::length(way);
         const float off_axis = std::acos(glm::clamp(glm::dot(way / distance, to_light), -1.0f, 1.0f));
         to_light = way / distance;
-        strength = (1.0f - glm::smoothstep(0.45f * lamp->outer_angle, 1.05f * lamp->outer_angle, off_axis)) * 8.0f / (distance * distance);
+        strength =
+            (1.0f - glm::smoothstep(0.45f * lamp->outer_angle, 1.05f * lamp->outer_angle, off_axis)) * 8.0f / (distance * distance);
     }
     const float cosine = glm::dot(normal, to_light);
     if (!(cosine > 0.0f && strength > 0.0f)) return glm::vec3(0.0f);
@@ -82,7 +85,9 @@ glm::vec3 key_light_on(const scene& s, const ray_world& world, const glm::vec3& 
 std::vector<lightmap> bake(const scene& s, const ray_world& world) {
     std::vector<lightmap> maps;
     for (const quad& q : s.surfaces) {
-        const auto texels = [](const glm::vec3& side) { return (std::max)(2, static_cast<int>(glm::length(side) * texels_per_unit)); };
+        const auto texels = [](const glm::vec3& side) {
+            return (std::max)(2, static_cast<int>(glm::length(side) * texels_per_unit));
+        };
         lightmap& map = maps.emplace_back(lightmap{texels(q.u), texels(q.v), {}});
         map.light.resize(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
         const glm::vec3 normal = q.normal();

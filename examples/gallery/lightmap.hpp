@@ -16,8 +16,8 @@ struct lightmap {
 };
 
 /// What comes from the key light alone, shadowed by the static world, on a point with a normal. `turned` turns the sample pattern.
-[[nodiscard]] glm::vec3 key_light_on(const scene& s, const ray_world& world, const glm::vec3& point, const glm::vec3& normal, int samples,
-                                     float turned = 0.0f);
+[[nodiscard]] glm::vec3 key_light_on(const scene& s, const ray_world& world, const glm::vec3& point, const glm::vec3& normal,
+                                     int samples, float turned = 0.0f);
 
 /// One lightmap for each quad of the scene.
 [[nodiscard]] std::vector<lightmap> bake(const scene& s, const ray_world& world);

@@ -21,8 +21,8 @@ void progress(const std::string& what) {
     if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r\033[K%s", what.c_str());
 }
 
-row row_of(output_folder& out, const scene& s, const variant& how, const mesh& m, const gnomon::light_frame& frame, const view& seen,
-           const exact_map& exact, const std::vector<float>& truth) {
+row row_of(output_folder& out, const scene& s, const variant& how, const mesh& m, const gnomon::light_frame& frame,
+           const view& seen, const exact_map& exact, const std::vector<float>& truth) {
     row result{.about = how, .receivers = seen.points.size(), .exhibits = {}, .table = {}};
     const auto show = [&](const std::string& name, const std::string& caption, const std::string& short_caption, const picture& p) {
         const std::string file = how.id + "_" + name + ".png";

@@ -56,7 +56,8 @@ raw_mesh read(const std::string& file) {
     if (!reader.ParseFromFile(file, config) || reader.GetAttrib().vertices.size() != 3 * raw.positions.size())
         throw failure("cannot read the mesh '" + file + "': it is no OBJ file that can be opened and parsed");
     for (const tinyobj::shape_t& shape : reader.GetShapes())
-        for (const tinyobj::index_t& index : shape.mesh.indices) raw.indices.push_back(static_cast<std::uint32_t>(index.vertex_index));
+        for (const tinyobj::index_t& index : shape.mesh.indices)
+            raw.indices.push_back(static_cast<std::uint32_t>(index.vertex_index));
     return raw;
 }
 
@@ -104,16 +105,15 @@ mesh normalised(const std::string& name, raw_mesh raw) {
 
     mesh m{.name = name, .positions = {}, .normals = {}, .indices = std::move(raw.indices)};
     const glm::dvec3 foot((lower.x + upper.x) / 2, lower.y, (lower.z + upper.z) / 2);
-    for (const glm::dvec3& p : raw.positions) m.positions.emplace_back(glm::clamp((p - foot) / size, glm::dvec3(-1.0), glm::dvec3(1.0)));
+    for (const glm::dvec3& p : raw.positions)
+        m.positions.emplace_back(glm::clamp((p - foot) / size, glm::dvec3(-1.0), glm::dvec3(1.0)));
     m.normals = smooth_normals(m);
     return m;
 }
 
 } // namespace
 
-mesh load_obj(const std::string& file) {
-    return normalised(file, read(file));
-}
+mesh load_obj(const std::string& file) { return normalised(file, read(file)); }
 
 mesh torus_knot() {
     constexpr std::uint32_t along = 400, around = 32;

@@ -48,13 +48,15 @@ void picture::write(const std::string& text, int x, int y, int scale, unsigned c
         const corner &first = corners[static_cast<std::size_t>(4 * q)], &last = corners[static_cast<std::size_t>(4 * q + 2)];
         const auto dot = [scale](float v) { return static_cast<int>(v * static_cast<float>(scale)); };
         for (int j = (std::max)(0, y + dot(first.y)); j < (std::min)(height_, y + dot(last.y)); ++j)
-            for (int i = (std::max)(0, x + dot(first.x)); i < (std::min)(width_, x + dot(last.x)); ++i) std::fill_n(at(i, j), 3, grey);
+            for (int i = (std::max)(0, x + dot(first.x)); i < (std::min)(width_, x + dot(last.x)); ++i)
+                std::fill_n(at(i, j), 3, grey);
     }
 }
 
 picture resized(const picture& p, int width, int height) {
     picture result(width, height);
-    if (!stbir_resize_uint8_srgb(p.data(), p.width(), p.height(), 0, result.data(), width, height, 0, 3, STBIR_ALPHA_CHANNEL_NONE, 0))
+    if (!stbir_resize_uint8_srgb(p.data(), p.width(), p.height(), 0, result.data(), width, height, 0, 3, STBIR_ALPHA_CHANNEL_NONE,
+                                 0))
         throw failure("there is no memory left to resize a picture");
     return result;
 }

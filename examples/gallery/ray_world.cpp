@@ -63,9 +63,10 @@ ray_world::ray_world(const scene& s, const mesh& caster_mesh) : mesh_(&caster_me
 
 void ray_world::add(RTCScene to, const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices) const {
     const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), positions.size());
-    void* triangles =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), indices.size() / 3);
+    void* vertices =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), positions.size());
+    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
+                                              indices.size() / 3);
     if (!vertices || !triangles) throw failure("Embree has no memory left for this mesh");
     std::copy(positions.begin(), positions.end(), static_cast<glm::vec3*>(vertices));
     std::copy(indices.begin(), indices.end(), static_cast<std::uint32_t*>(triangles));

@@ -8,9 +8,7 @@
 
 namespace gallery {
 
-glm::vec3 quad::normal() const noexcept {
-    return glm::normalize(glm::cross(u, v));
-}
+glm::vec3 quad::normal() const noexcept { return glm::normalize(glm::cross(u, v)); }
 
 namespace {
 
@@ -46,11 +44,12 @@ scene on_the_ground() {
     s.play_area = {{-1.3, 0.0, -1.3}, {1.3, 1.3, 1.3}};
     s.reach = {{-2.5, 0.0, -2.5}, {2.5, 0.1, 2.5}};
     s.from = {{0.35f, 1.9f, 3.3f}, {-0.02f, 0.33f, 0.05f}, 0.315f};
-    s.variants = {
-        {"lightmap", "a  Mesh over a floor with a precomputed lightmap",
-         "The pillar's shadow is baked into the lightmap, the mesh's is dynamic; both should look like the work of one light, and where "
-         "they meet nothing may be darkened twice. What error there is sits at the feet, where mesh and floor are too close for a mean "
-         "depth."}};
+    s.variants = {{"lightmap", "a  Mesh over a floor with a precomputed lightmap",
+                   "The pillar's shadow is baked into the lightmap, the mesh's is dynamic; both should look like the work of one "
+                   "light, and where "
+                   "they meet nothing may be darkened twice. What error there is sits at the feet, where mesh and floor are too "
+                   "close for a mean "
+                   "depth."}};
     return s;
 }
 
@@ -60,7 +59,8 @@ scene bridge() {
     const float floor = -1.5f;
     add_floor(s, floor, 6.5f, sand);
     add_box(s, {-3.1f, -0.22f, -0.8f}, {3.1f, 0.0f, 0.8f}, stone);
-    for (const float side : {-1.0f, 1.0f}) add_box(s, {side * 2.3f - 0.45f, floor, -0.7f}, {side * 2.3f + 0.45f, -0.22f, 0.7f}, stone);
+    for (const float side : {-1.0f, 1.0f})
+        add_box(s, {side * 2.3f - 0.45f, floor, -0.7f}, {side * 2.3f + 0.45f, -0.22f, 0.7f}, stone);
     add_box(s, {0.02f, floor, 0.02f}, {0.08f, floor + 0.42f, 0.08f}, {0.05f, 0.035f, 0.02f}, true);
     add_box(s, {-0.01f, floor + 0.42f, -0.01f}, {0.11f, floor + 0.58f, 0.11f}, {1.0f, 0.72f, 0.25f}, true);
     s.fire = torch{{0.05f, floor + 0.50f, 0.05f}, {0.62f, 0.36f, 0.14f}};
@@ -74,10 +74,11 @@ scene bridge() {
     const std::string about = "The lightmap holds the sun and a torch that burns under the bridge; ";
     s.variants = {
         {"bridge_unbounded", "b  The paper's bridge, far bound off",
-         about + "without a far bound the mesh also takes away light of the torch, below the deck that should have caught its shadow."},
+         about +
+             "without a far bound the mesh also takes away light of the torch, below the deck that should have caught its shadow."},
         {"bridge_bounded", "b  The paper's bridge, far bound on",
-         about + "a third channel ends every shadow at the underside of the deck, and nothing falls below.", gnomon::bias_towards::shadow,
-         true}};
+         about + "a third channel ends every shadow at the underside of the deck, and nothing falls below.",
+         gnomon::bias_towards::shadow, true}};
     return s;
 }
 
@@ -106,10 +107,11 @@ scene between() {
     s.play_area = {{-1.3, 0.0, -1.0}, {1.5, 1.7, 1.0}};
     s.reach = {{-1.3, 0.0, -1.0}, {2.4, 0.1, 1.0}};
     s.from = {{0.20f, 2.35f, 3.25f}, {0.02f, 0.74f, 0.0f}, 0.305f};
-    s.variants = {{"between", "d  A receiver between two casters: the stated weakness",
-                   "One mesh stands on the table, another under it; where both fall into one filter footprint their mean depth decides for "
-                   "the table top, and its shadow there is torn at every precision: a hard edge instead of a soft one, and a piece of it "
-                   "missing. The thin outline to its right is the price of 8 bits biased towards shadow."}};
+    s.variants = {
+        {"between", "d  A receiver between two casters: the stated weakness",
+         "One mesh stands on the table, another under it; where both fall into one filter footprint their mean depth decides for "
+         "the table top, and its shadow there is torn at every precision: a hard edge instead of a soft one, and a piece of it "
+         "missing. The thin outline to its right is the price of 8 bits biased towards shadow."}};
     return s;
 }
 
@@ -122,19 +124,21 @@ scene bias() {
     s.reach = {{-2.0, 0.0, -2.0}, {2.0, 0.1, 2.0}};
     s.from = {{0.25f, 1.7f, 3.2f}, {0.12f, 0.50f, 0.0f}, 0.285f};
     s.casters_receive = true;
-    const std::string about = "The mesh shadows itself here, which the method is not made for: where its surface curves, the mean depth "
-                              "around it is not its own, at any precision. ";
+    const std::string about =
+        "The mesh shadows itself here, which the method is not made for: where its surface curves, the mean depth "
+        "around it is not its own, at any precision. ";
     s.variants = {
         {"bias_light", "e  Bias towards light: a mesh that also receives",
-         about + "Towards light, rounding to 8 bits adds no false shadow to that; the price is the faint rim of the shadow where it meets "
+         about + "Towards light, rounding to 8 bits adds no false shadow to that; the price is the faint rim of the shadow where "
+                 "it meets "
                  "the floor.",
          gnomon::bias_towards::light},
         {"bias_none", "e  No bias: a mesh that also receives",
          about + "Without bias, rounding decides wherever a surface meets its own stored depth, and 8 bits draw contour lines.",
          gnomon::bias_towards::none},
         {"bias_shadow", "e  Bias towards shadow: a mesh that also receives",
-         about +
-             "Towards shadow is right for casters that never receive, as in the rows above; here 8 bits drown the mesh in its own shadow.",
+         about + "Towards shadow is right for casters that never receive, as in the rows above; here 8 bits drown the mesh in its "
+                 "own shadow.",
          gnomon::bias_towards::shadow}};
     return s;
 }
@@ -155,8 +159,6 @@ gnomon::light_frame frame_of(const scene& s, gnomon::extent size, int radius) {
     return sun.frame(size, radius);
 }
 
-std::vector<scene> all_scenes() {
-    return {on_the_ground(), bridge(), translucent(), between(), bias()};
-}
+std::vector<scene> all_scenes() { return {on_the_ground(), bridge(), translucent(), between(), bias()}; }
 
 } // namespace gallery

@@ -68,9 +68,7 @@ gnomon::texel_rect occupied_part(const exact_map& map) {
 
 } // namespace
 
-gnomon::triangle_mesh triangles(const mesh& m, const caster& at) {
-    return {m.positions, m.indices, at.model};
-}
+gnomon::triangle_mesh triangles(const mesh& m, const caster& at) { return {m.positions, m.indices, at.model}; }
 
 static_triangles::static_triangles(const scene& s) {
     for (const quad& q : s.surfaces) {
@@ -99,8 +97,8 @@ exact_map exact_map_of(const scene& s, const mesh& m, const gnomon::light_frame&
 std::vector<float> hard_shadow(const exact_map& map, const receivers& points) {
     std::vector<float> intensity(points.size());
     for (std::size_t i = 0; i < points.size(); ++i)
-        intensity[i] =
-            static_cast<float>(map(static_cast<int>(points.x[i]), static_cast<int>(points.y[i])).shadow(static_cast<double>(points.z[i])));
+        intensity[i] = static_cast<float>(
+            map(static_cast<int>(points.x[i]), static_cast<int>(points.y[i])).shadow(static_cast<double>(points.z[i])));
     return intensity;
 }
 

@@ -161,18 +161,21 @@ view look(const scene& s, const ray_world& world, const std::vector<lightmap>& l
     const auto count = static_cast<std::size_t>(v.width) * static_cast<std::size_t>(v.height) * samples_per_pixel;
     v.samples.resize(count);
     std::vector<map_place> places(count);
-    const glm::vec3 forward = glm::normalize(s.from.target - s.from.eye), right = glm::normalize(glm::cross(forward, glm::vec3(0, 1, 0))),
-                    upward = glm::cross(right, forward);
-    constexpr std::array<glm::vec2, samples_per_pixel> grid{{{0.375f, 0.125f}, {0.875f, 0.375f}, {0.125f, 0.625f}, {0.625f, 0.875f}}};
+    const glm::vec3 forward = glm::normalize(s.from.target - s.from.eye),
+                    right = glm::normalize(glm::cross(forward, glm::vec3(0, 1, 0))), upward = glm::cross(right, forward);
+    constexpr std::array<glm::vec2, samples_per_pixel> grid{
+        {{0.375f, 0.125f}, {0.875f, 0.375f}, {0.125f, 0.625f}, {0.625f, 0.875f}}};
     const observer eye(s, world, light, frame);
     for_each_row(v.height, [&](int row) {
         for (int column = 0; column < v.width; ++column)
             for (int i = 0; i < samples_per_pixel; ++i) {
-                const glm::vec2 p = (glm::vec2(column, row) + grid[static_cast<std::size_t>(i)]) * 2.0f / static_cast<float>(v.height);
+                const glm::vec2 p =
+                    (glm::vec2(column, row) + grid[static_cast<std::size_t>(i)]) * 2.0f / static_cast<float>(v.height);
                 const float x = (p.x - static_cast<float>(v.width) / static_cast<float>(v.height)) * s.from.height_of_view,
                             y = (1.0f - p.y) * s.from.height_of_view;
                 const auto at = static_cast<std::size_t>((row * v.width + column) * samples_per_pixel + i);
-                v.samples[at] = eye.follow(s.from.eye, glm::normalize(forward + right * x + upward * y), 1.0f - p.y / 2.0f, places[at]);
+                v.samples[at] =
+                    eye.follow(s.from.eye, glm::normalize(forward + right * x + upward * y), 1.0f - p.y / 2.0f, places[at]);
             }
     });
     number_receivers(v, places);

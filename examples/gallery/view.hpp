@@ -35,14 +35,14 @@ struct view {
 };
 
 /// Looks at a scene. Receivers are the samples on the map whose surface is turned to the light.
-[[nodiscard]] view look(const scene& s, const ray_world& world, const std::vector<lightmap>& light, const gnomon::light_frame& frame,
-                        int width);
+[[nodiscard]] view look(const scene& s, const ray_world& world, const std::vector<lightmap>& light,
+                        const gnomon::light_frame& frame, int width);
 
 /// The picture, with `intensity[i]` as the shadow on receiver i, taken off the precomputed light by gnomon::mask_light.
 [[nodiscard]] picture shade(const view& v, const scene& s, const std::vector<float>& intensity);
 
 /// Where the shadow differs from the truth, `factor` times too strong: blue too light, red too dark, over the scene in pale grey.
-[[nodiscard]] picture shade_difference(const view& v, const scene& s, const std::vector<float>& intensity, const std::vector<float>& truth,
-                                       float factor);
+[[nodiscard]] picture shade_difference(const view& v, const scene& s, const std::vector<float>& intensity,
+                                       const std::vector<float>& truth, float factor);
 
 } // namespace gallery

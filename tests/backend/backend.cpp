@@ -46,8 +46,8 @@ struct counting : scalar {
         scalar::receive(texels, z, intensity, r);
     }
     template <texel_format Texel>
-    void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
-                 strided_span<const float> z, strided_span<float> intensity, const rule& r) const noexcept {
+    void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
+                 strided_span<float> intensity, const rule& r) const noexcept {
         seen->points += z.size();
         scalar::receive(map, x, y, z, intensity, r);
     }
@@ -116,8 +116,7 @@ TEST_CASE_TEMPLATE("the scalar backend is the free functions", Texel, rg8, gnomo
     scalar{}.receive(soft.view(), strided_span<const float>(x), strided_span<const float>(y), strided_span<const float>(z),
                      strided_span<float>(found), distant);
     gnomon::receive(soft.view(), x, y, z, expected, distant);
-    for (std::size_t i = 0; i < 40; ++i)
-        wrong += !test::same_bits(found[i], expected[i]);
+    for (std::size_t i = 0; i < 40; ++i) wrong += !test::same_bits(found[i], expected[i]);
     CHECK(wrong == 0);
 }
 

@@ -7,4 +7,6 @@ using chosen = std::uint16_t; // storage is not a texel
 using chosen = gnomon::rg8;
 #endif
 
-void receive_row(const std::vector<chosen>& texels, const std::vector<float>& z, std::vector<float>& intensity) { gnomon::receive(texels, z, intensity); }
+void receive_row(const std::vector<chosen>& texels, const std::vector<float>& z, std::vector<float>& intensity) {
+    gnomon::receive(texels, z, intensity);
+}

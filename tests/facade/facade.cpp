@@ -21,25 +21,21 @@ using test::dice;
 constexpr float no_depth = test::nan<float>, inf = test::infinity<float>;
 constexpr int lowest = std::numeric_limits<int>::min(), highest = std::numeric_limits<int>::max();
 
-template <typename Texel>
-using map_of = soft_shadow_map<Texel, binomial<3>>;
+template <typename Texel> using map_of = soft_shadow_map<Texel, binomial<3>>;
 
-template <typename Map>
-bool lit_everywhere(const Map& map) {
+template <typename Map> bool lit_everywhere(const Map& map) {
     using texel = std::remove_const_t<typename decltype(map.soft())::element_type>;
     int dark = 0;
     test::for_each_texel(whole(map.size()),
                          [&](int x, int y) { dark += !(map.soft()(x, y) == texel::clear()) || map.shadow(x, y, 2.0f) > 0.0f; });
     return dark == 0;
 }
-template <typename Map>
-bool same_bits_in(const Map& a, const Map& b) {
+template <typename Map> bool same_bits_in(const Map& a, const Map& b) {
     return a.size() == b.size() && test::differences(a.soft(), b.soft(), whole(a.size())) == 0;
 }
 
 /// Draws a caster of two depths texel by texel, as a host's rasteriser does, and says what it touched.
-template <typename Texel>
-struct drawing {
+template <typename Texel> struct drawing {
     struct touched {
         texel_rect texels;
         gnomon::depth_interval depth;
@@ -56,18 +52,13 @@ struct drawing {
     }
 };
 template <typename Map, typename Draw>
-concept can_cast = requires(Map& map, Draw draw) {
-    map.cast(draw);
-};
+concept can_cast = requires(Map& map, Draw draw) { map.cast(draw); };
 
 /// One caster for certain, a few at random, and a ground where the format has one.
-template <typename Map>
-void populate(Map& map, dice& roll) {
+template <typename Map> void populate(Map& map, dice& roll) {
     map.cast({15, 12, 30, 22}, 0.2f + 0.5f * roll.unit());
-    for (int n = roll(0, 3); n > 0; --n)
-        map.cast(roll.rect(map.size(), 8), roll.unit());
-    if constexpr (requires { map.bound(texel_rect{}, 1.0f); })
-        map.bound(whole(map.size()), roll.unit());
+    for (int n = roll(0, 3); n > 0; --n) map.cast(roll.rect(map.size(), 8), roll.unit());
+    if constexpr (requires { map.bound(texel_rect{}, 1.0f); }) map.bound(whole(map.size()), roll.unit());
 }
 } // namespace
 
@@ -89,8 +80,7 @@ TEST_CASE_TEMPLATE("maps of nothing, of one texel, of one row, and smaller than 
             for (int frame = 0; frame < 2; ++frame) {
                 map.clear();
                 map.cast({-3, -3, 99, 99}, 0.5f);
-                if constexpr (Texel::effects.far_bound)
-                    map.bound({-3, -3, 99, 99}, 0.9f);
+                if constexpr (Texel::effects.far_bound) map.bound({-3, -3, 99, 99}, 0.9f);
                 map.filter();
                 CHECK(map.size() == extent{size.width < 0 ? 0 : size.width, size.height < 0 ? 0 : size.height});
                 CHECK(test::equal(map.shadow(-1, 0, 0.8f), 0.0f));
@@ -98,8 +88,8 @@ TEST_CASE_TEMPLATE("maps of nothing, of one texel, of one row, and smaller than 
                 gnomon::image<Texel> casters(map.size(), Texel::caster(0.5f));
                 if constexpr (Texel::effects.far_bound)
                     test::for_each_texel(whole(map.size()), [&](int x, int y) { casters(x, y).bound(0.9f); });
-                CHECK(test::differences<Texel>(map.soft(), test::dense<gnomon::gaussian<16>>(casters).view(),
-                                               whole(map.size())) == 0);
+                CHECK(test::differences<Texel>(map.soft(), test::dense<gnomon::gaussian<16>>(casters).view(), whole(map.size())) ==
+                      0);
                 CHECK(test::equal(map.shadow_at(0.5f, 0.5f, 0.8f), map.shadow(0, 0, 0.8f)));
                 CHECK(map.reaches({0, 0, 1, 1}, {0.7f, 0.8f}) == !size.empty());
                 const float z[2] = {0.8f, 0.8f};
@@ -145,8 +135,7 @@ TEST_CASE("a caster of no depth lies at the far plane, one beyond the planes on 
         CHECK(same_bits_in(odd, plain));
         CHECK(test::equal(odd.shadow(8, 8, 2.0f), 1.0f));
         CHECK(odd.reaches({8, 8, 9, 9}, {2.0f, 2.0f}));
-        for (const float z : {no_depth, -inf, -1.0f, 0.0f})
-            CHECK(test::equal(odd.shadow(8, 8, z), 0.0f));
+        for (const float z : {no_depth, -inf, -1.0f, 0.0f}) CHECK(test::equal(odd.shadow(8, 8, z), 0.0f));
     }
 }
 
@@ -190,8 +179,48 @@ TEST_CASE_TEMPLATE("a far bound ends the shadow at the first receiver, and only 
 static_assert(can_cast<map_of<gnomon::rg8>, drawing<gnomon::rg8>> && !can_cast<map_of<gnomon::rg8>, drawing<gnomon::rg16>>);
 static_assert(!can_cast<map_of<gnomon::rg8>, void (*)(gnomon::image_view<gnomon::rg8>)>, "who draws says what was touched");
 
-TEST_CASE_TEMPLATE("what is drawn into cast is what casters and mark make by hand, and clear forgets all of it", Texel,
-                   gnomon::rg8, gnomon::rgba16, gnomon::rgb16f, test::paper32f) {
+TEST_CASE_TEMPLATE("what is drawn into bound bounds as rectangles do", Texel, gnomon::rgb8, gnomon::rgba32f) {
+    map_of<Texel> map({.width = 60, .height = 30, .tile = 8}), by_rect = map;
+    for (auto* m : {&map, &by_rect}) m->cast({5, 5, 50, 25}, 0.3f);
+    constexpr texel_rect ground{0, 0, 30, 30};
+    by_rect.bound(ground, 0.6f);
+    map.bound([&](auto texels) { test::for_each_texel(ground, [&](int x, int y) { texels(x, y).bound(0.6f); }); });
+    map.filter();
+    by_rect.filter();
+    CHECK(same_bits_in(map, by_rect));
+    CHECK(test::equal(map.shadow(15, 15, 0.7f), 0.0f));
+}
+
+template <typename Map, typename... Arguments>
+concept can_shadow = requires(const Map& map, Arguments... at) { map.shadow(at...); };
+static_assert(can_shadow<map_of<gnomon::rg8>, int, int, float> && can_shadow<map_of<gnomon::rg8>, int, int, double>);
+static_assert(!can_shadow<map_of<gnomon::rg8>, float, float, float> && !can_shadow<map_of<gnomon::rg8>, double, double, double>,
+              "a position would be cut to a texel without a word");
+
+TEST_CASE("a point with x, y and depth is asked as its three numbers are") {
+    struct {
+        double x, y, depth;
+    } const point{10.25, 9.5, 0.75};
+    map_of<gnomon::rg16> map({.width = 20, .height = 20, .tile = 8});
+    map.cast({10, 5, 15, 15}, 0.5f);
+    map.filter();
+    CHECK(map.shadow_at(point) > 0.1f);
+    CHECK(test::same_bits(map.shadow_at(point), map.shadow_at(10.25f, 9.5f, 0.75f)));
+}
+
+TEST_CASE("a receiver before its caster is reached unless the bias is towards light") {
+    map_of<gnomon::rg8> map({.width = 20, .height = 20, .tile = 8});
+    map.cast({5, 5, 15, 15}, 0.5f);
+    map.filter();
+    for (const gnomon::bias b : {gnomon::towards_light, gnomon::unbiased, gnomon::towards_shadow}) {
+        map.decision.caster = b;
+        CHECK(map.reaches({8, 8, 9, 9}, {0.3f, 0.4f}) == (b.towards != gnomon::bias_towards::light));
+        CHECK(map.reaches({8, 8, 9, 9}, {0.6f, 0.7f}));
+    }
+}
+
+TEST_CASE_TEMPLATE("what is drawn into cast is what casters and mark make by hand, and clear forgets all of it", Texel, gnomon::rg8,
+                   gnomon::rgba16, gnomon::rgb16f, test::paper32f) {
     dice roll(146);
     map_of<Texel> map({.width = 50, .height = 40, .tile = 8}), by_hand = map;
     for (int frame = 0; frame < 30; ++frame) {
@@ -222,8 +251,7 @@ TEST_CASE_TEMPLATE("what is drawn into cast is what casters and mark make by han
     map.clear();
     map.filter();
     CHECK(lit_everywhere(map));
-    CHECK(test::differences<Texel>(map.casters(), gnomon::image<Texel>(map.size(), Texel::clear()).view(), whole(map.size())) ==
-          0);
+    CHECK(test::differences<Texel>(map.casters(), gnomon::image<Texel>(map.size(), Texel::clear()).view(), whole(map.size())) == 0);
 }
 
 TEST_CASE_TEMPLATE("sample, receive and receive_row give the bits of the one-point forms", Texel, gnomon::rg8, gnomon::rgba16,

@@ -35,8 +35,7 @@ struct mover {
 };
 
 /// The definition of a cast: every texel of the rectangle, one by one.
-template <typename Texel>
-void draw(image<Texel>& casters, const mover& m) {
+template <typename Texel> void draw(image<Texel>& casters, const mover& m) {
     test::for_each_texel(clip(m.where(), size), [&](int x, int y) {
         if constexpr (Texel::effects.translucency)
             casters(x, y).cast(Texel::caster(m.depth, m.opacity));
@@ -44,8 +43,7 @@ void draw(image<Texel>& casters, const mover& m) {
             casters(x, y).cast(Texel::caster(m.depth));
     });
 }
-template <typename Map, typename Texel>
-void cast(Map& map, const mover& m, bool by_hand, const image<Texel>& drawn) {
+template <typename Map, typename Texel> void cast(Map& map, const mover& m, bool by_hand, const image<Texel>& drawn) {
     if (by_hand) { // as a host does that rasterises itself
         test::for_each_texel(clip(m.where(), size), [&](int x, int y) { map.casters()(x, y) = drawn(x, y); });
         map.mark(m.where(), {m.depth, m.depth});
@@ -55,40 +53,31 @@ void cast(Map& map, const mover& m, bool by_hand, const image<Texel>& drawn) {
         map.cast(m.where(), m.depth);
 }
 
-template <typename Texel, gnomon::kernel Kernel>
-int wrong_frames(int frames, std::uint64_t seed) {
+template <typename Texel, gnomon::kernel Kernel> int wrong_frames(int frames, std::uint64_t seed) {
     dice roll(seed);
     using map = soft_shadow_map<Texel, Kernel>;
     std::vector<map> maps; // the same casters in tiles of several sizes
-    for (const int tile : {1, 7, 16, 64})
-        maps.emplace_back(gnomon::map_size{size.width, size.height, tile});
+    for (const int tile : {1, 7, 16, 64}) maps.emplace_back(gnomon::map_size{size.width, size.height, tile});
     std::vector<mover> movers;
     int wrong = 0;
     for (int frame = 0; frame < frames; ++frame) {
-        if (roll.one_in(4) && !movers.empty())
-            movers.pop_back();
-        if (roll.one_in(20))
-            movers.clear();
-        if (roll.one_in(3) && movers.size() < 5)
-            movers.emplace_back(roll);
-        for (mover& m : movers)
-            m.move();
+        if (roll.one_in(4) && !movers.empty()) movers.pop_back();
+        if (roll.one_in(20)) movers.clear();
+        if (roll.one_in(3) && movers.size() < 5) movers.emplace_back(roll);
+        for (mover& m : movers) m.move();
 
         image<Texel> casters(size, Texel::clear());
-        for (map& each : maps)
-            each.clear();
+        for (map& each : maps) each.clear();
         for (const mover& m : movers) {
             draw(casters, m);
             const bool by_hand = roll.one_in(4);
-            for (map& each : maps)
-                cast(each, m, by_hand, casters);
+            for (map& each : maps) cast(each, m, by_hand, casters);
         }
         if constexpr (Texel::effects.far_bound) {
             const texel_rect ground = roll.rect(size, 10);
             const float z = roll.unit();
             test::for_each_texel(clip(ground, size), [&](int x, int y) { casters(x, y).bound(z); });
-            for (map& each : maps)
-                each.bound(ground, z);
+            for (map& each : maps) each.bound(ground, z);
         }
         const image<Texel> expected = test::dense<Kernel>(casters);
         for (map& each : maps) {
@@ -99,24 +88,20 @@ int wrong_frames(int frames, std::uint64_t seed) {
     return wrong;
 }
 
-template <gnomon::kernel Kernel>
-struct in_each_format {
-    template <typename... Texels>
-    static void check() {
+template <gnomon::kernel Kernel> struct in_each_format {
+    template <typename... Texels> static void check() {
         std::uint64_t seed = 131;
         (check_one<Texels>(++seed), ...);
     }
-    template <typename Texel>
-    static void check_one(std::uint64_t seed) {
+    template <typename Texel> static void check_one(std::uint64_t seed) {
         CAPTURE(seed);
         CHECK(wrong_frames<Texel, Kernel>(100, seed) == 0);
     }
 };
-template <gnomon::kernel Kernel>
-void check_all_aliases() {
+template <gnomon::kernel Kernel> void check_all_aliases() {
     using namespace gnomon;
-    in_each_format<Kernel>::template check<rg8, rg16, rg16f, rg32f, rgb8, rgb16, rgb16f, rgb32f, rga8, rga16, rga16f, rga32f,
-                                           rgba8, rgba16, rgba16f, rgba32f>();
+    in_each_format<Kernel>::template check<rg8, rg16, rg16f, rg32f, rgb8, rgb16, rgb16f, rgb32f, rga8, rga16, rga16f, rga32f, rgba8,
+                                           rgba16, rgba16f, rgba32f>();
 }
 } // namespace
 

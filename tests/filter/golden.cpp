@@ -7,16 +7,14 @@
 #include <array>
 
 namespace {
-template <typename Texel>
-std::array<std::uint64_t, 4> hashes() {
+template <typename Texel> std::array<std::uint64_t, 4> hashes() {
     test::dice roll(81);
     const auto from = test::noise<Texel>(roll, {61, 47}, 3);
     return {test::hash(test::dense<gnomon::box<2>>(from)), test::hash(test::dense<gnomon::tent<4>>(from)),
             test::hash(test::dense<gnomon::binomial<3>>(from)), test::hash(test::dense<gnomon::gaussian<8>>(from))};
 }
 void check(const std::array<std::uint64_t, 4>& found, const std::array<std::uint64_t, 4>& golden) {
-    for (std::size_t i = 0; i < golden.size(); ++i)
-        CHECK(found[i] == golden[i]);
+    for (std::size_t i = 0; i < golden.size(); ++i) CHECK(found[i] == golden[i]);
 }
 
 /// Nearly all of its weight is in the middle, so that sums of halves as well have more digits than a double.
@@ -29,8 +27,7 @@ struct needle {
 /// Maps that are balanced on an edge. A rounding to 11 or 24 bits hides what a fused multiply-add does to the last of a double's 53,
 /// unless the sum lies just where that rounding turns over. So the texels on a stair from the middle of the map to its corner, one
 /// after the other, are made as large as they can be without tipping the result in the middle: their bits then hold its every digit.
-template <typename Texel, gnomon::kernel Kernel>
-std::uint64_t hash_of_edges() {
+template <typename Texel, gnomon::kernel Kernel> std::uint64_t hash_of_edges() {
     using storage = typename Texel::storage;
     using word = std::conditional_t<sizeof(storage) == 2, std::uint16_t, std::uint32_t>; // ordered as what they stand for
     constexpr int r = Kernel::radius, binade = sizeof(storage) == 2 ? 1 << 10 : 1 << 23;
@@ -50,8 +47,7 @@ std::uint64_t hash_of_edges() {
             const word least = (x == r && y == r) || roll.one_in(2) ? half : small;
             set(x, y, static_cast<word>(least + static_cast<word>(roll(0, binade - 1))));
         });
-        for (int step = 2 * r - 1; step >= 0; --step)
-            set(step / 2, (step + 1) / 2, 0);
+        for (int step = 2 * r - 1; step >= 0; --step) set(step / 2, (step + 1) / 2, 0);
         const storage before = middle();
         for (int step = 2 * r - 1; step >= 0; --step) { // from the texel that counts most to the one that counts least
             word stays = 0, tips = one;

@@ -21,14 +21,11 @@ using gnomon::tent;
 using test::taps;
 using test::taps_of;
 
-template <template <int> typename Kernel, int... Radii>
-std::vector<taps> all(std::integer_sequence<int, Radii...>) {
+template <template <int> typename Kernel, int... Radii> std::vector<taps> all(std::integer_sequence<int, Radii...>) {
     return {taps_of<Kernel<Radii>>()...};
 }
-template <int Percent>
-struct bell {
-    template <int Radius>
-    using kernel = gaussian<Radius, Percent>;
+template <int Percent> struct bell {
+    template <int Radius> using kernel = gaussian<Radius, Percent>;
 };
 using to_32 = std::make_integer_sequence<int, 33>;
 using to_30 = std::make_integer_sequence<int, 31>;
@@ -38,8 +35,7 @@ const std::vector<taps> narrow_bells = all<bell<33>::kernel>(to_32{}), bells = a
 
 long double variance(const taps& k) {
     long double sum = 0;
-    for (int i = -k.radius; i <= k.radius; ++i)
-        sum += static_cast<long double>(k.at(i)) * i * i;
+    for (int i = -k.radius; i <= k.radius; ++i) sum += static_cast<long double>(k.at(i)) * i * i;
     return sum / k.total;
 }
 
@@ -56,11 +52,9 @@ int defects(const taps& k) {
 }
 
 /// The largest difference of any weight from its exact share, in units of a weight.
-template <typename Exact>
-long double worst_weight(const taps& k, Exact&& exact) {
+template <typename Exact> long double worst_weight(const taps& k, Exact&& exact) {
     long double sum = 0, worst = 0;
-    for (int i = -k.radius; i <= k.radius; ++i)
-        sum += exact(i);
+    for (int i = -k.radius; i <= k.radius; ++i) sum += exact(i);
     for (int i = -k.radius; i <= k.radius; ++i)
         worst = std::max(worst, std::fabs(static_cast<long double>(k.at(i)) - exact(i) * k.total / sum));
     return worst;
@@ -68,8 +62,7 @@ long double worst_weight(const taps& k, Exact&& exact) {
 
 long double choose(int n, int k) {
     long double product = 1;
-    for (int i = 1; i <= k; ++i)
-        product = product * (n - k + i) / i;
+    for (int i = 1; i <= k; ++i) product = product * (n - k + i) / i;
     return std::round(product);
 }
 } // namespace
@@ -83,13 +76,11 @@ TEST_CASE("every kernel is non-negative, symmetric, highest in the middle, and s
 }
 
 TEST_CASE("box, tent and the binomials up to 8 keep their proportions exactly") {
-    for (const taps& k : boxes)
-        CHECK(worst_weight(k, [](int) { return 1.0L; }) <= 0.0L);
+    for (const taps& k : boxes) CHECK(worst_weight(k, [](int) { return 1.0L; }) <= 0.0L);
     for (const taps& k : tents)
         CHECK(worst_weight(k, [&k](int i) { return static_cast<long double>(k.radius + 1 - std::abs(i)); }) <= 0.0L);
     for (const taps& k : binomials)
-        if (k.radius <= 8)
-            CHECK(worst_weight(k, [&k](int i) { return choose(2 * k.radius, k.radius + i); }) <= 0.0L);
+        if (k.radius <= 8) CHECK(worst_weight(k, [&k](int i) { return choose(2 * k.radius, k.radius + i); }) <= 0.0L);
 }
 
 TEST_CASE("the wider binomials and the gaussians are within one unit in 65,536 of their proportions") {
@@ -106,7 +97,7 @@ TEST_CASE("the wider binomials and the gaussians are within one unit in 65,536 o
             worst = std::max(worst, worst_weight(k, [sigma](int i) { return std::exp(-i * i / (2 * sigma * sigma)); }));
         }
     CHECK(worst <= 1.0L); // reached: binomial<9>'s centre is whole, and what is left for the pairs is odd
-    CHECK(worst > 0.5L); // tight: apportioning to a fixed sum cannot do with half a unit
+    CHECK(worst > 0.5L);  // tight: apportioning to a fixed sum cannot do with half a unit
 }
 
 TEST_CASE("standard deviations are the stated ones") {

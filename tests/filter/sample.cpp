@@ -15,8 +15,7 @@ using gnomon::extent;
 using gnomon::image;
 using test::dice;
 
-template <typename Texel>
-long double blended(const image<Texel>& map, float x, float y, int channel) {
+template <typename Texel> long double blended(const image<Texel>& map, float x, float y, int channel) {
     const auto snapped = [](float v) { return std::floor((static_cast<long double>(v) - 0.5L) * 256 + 0.5L) / 256; };
     const long double u = snapped(x), v = snapped(y), column = std::floor(u), row = std::floor(v);
     long double sum = 0;
@@ -29,11 +28,9 @@ long double blended(const image<Texel>& map, float x, float y, int channel) {
         }
     return sum;
 }
-template <typename Texel>
-bool equal(const gnomon::filtered<Texel>& a, const gnomon::filtered<Texel>& b) {
+template <typename Texel> bool equal(const gnomon::filtered<Texel>& a, const gnomon::filtered<Texel>& b) {
     for (int c = 0; c < Texel::channels; ++c)
-        if (!test::same_bits(a.code[c], b.code[c]))
-            return false;
+        if (!test::same_bits(a.code[c], b.code[c])) return false;
     return true;
 }
 } // namespace
@@ -73,8 +70,7 @@ TEST_CASE_TEMPLATE("a sample is the blend of four texels at a position taken to 
 
 TEST_CASE("a position is off by at most 1/512 texel") {
     image<gnomon::rg32f> ramp({64, 1});
-    for (int x = 0; x < 64; ++x)
-        ramp(x, 0).stored[1] = static_cast<float>(x) + 0.5f; // holds its own position
+    for (int x = 0; x < 64; ++x) ramp(x, 0).stored[1] = static_cast<float>(x) + 0.5f; // holds its own position
     double worst = 0;
     for (int i = 0; i < 200'000; ++i) {
         const float x = 0.5f + 63.0f * static_cast<float>(i) / 200'000.0f;

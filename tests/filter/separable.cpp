@@ -33,15 +33,13 @@ using some_kernels = kernels<box<0>, box<1>, tent<2>, binomial<3>, binomial<9>, 
 constexpr extent sizes[] = {{0, 0}, {0, 4}, {5, 0}, {1, 1}, {1, 19}, {23, 1}, {3, 2}, {19, 13}};
 
 /// Everything that is not noise: nothing, all full, one texel, stripes, a disc, halves of two depths.
-template <gnomon::texel_format Texel>
-std::vector<image<Texel>> pictures(dice& roll, extent size) {
+template <gnomon::texel_format Texel> std::vector<image<Texel>> pictures(dice& roll, extent size) {
     std::vector<image<Texel>> all{image<Texel>(size, Texel::clear()), image<Texel>(size, Texel::caster(0.0f)),
                                   test::noise<Texel>(roll, size, 1), test::noise<Texel>(roll, size, 6)};
     const auto draw = [&](auto&& covers) {
         all.emplace_back(size, Texel::clear());
         for_each_texel(whole(size), [&](int x, int y) {
-            if (covers(x, y))
-                all.back()(x, y) = Texel::caster(x < size.width / 2 ? 0.25f : 0.7f);
+            if (covers(x, y)) all.back()(x, y) = Texel::caster(x < size.width / 2 ? 0.25f : 0.7f);
         });
     };
     draw([&](int x, int y) { return x == size.width / 2 && y == size.height / 2; });
@@ -53,8 +51,7 @@ std::vector<image<Texel>> pictures(dice& roll, extent size) {
     return all;
 }
 
-template <typename Kernel, typename Texel>
-int not_the_rational_result(const image<Texel>& from) {
+template <typename Kernel, typename Texel> int not_the_rational_result(const image<Texel>& from) {
     const test::taps k = test::taps_of<Kernel>();
     const image<Texel> to = dense<Kernel>(from);
     const auto total = static_cast<std::uint64_t>(k.total) * static_cast<std::uint64_t>(k.total);
@@ -68,8 +65,7 @@ int not_the_rational_result(const image<Texel>& from) {
 }
 
 /// The distance of two neighbours of the format around `v`.
-template <typename Channel>
-long double spacing(long double v) {
+template <typename Channel> long double spacing(long double v) {
     constexpr int digits = sizeof(typename Channel::storage) == 2 ? 11 : 24,
                   least = sizeof(typename Channel::storage) == 2 ? -24 : -149;
     int exponent = 0;
@@ -135,10 +131,8 @@ TEST_CASE_TEMPLATE("before its rounding, a float sum really uses the 2^-35 it is
         std::vector<double> line(2 * 3);
         gnomon::detail::sum_columns<box<1>, Texel>(from.view(), 1, -1, 2, line);
         long double exact = 0;
-        for (int y = 0; y < 3; ++y)
-            exact += static_cast<long double>(from(0, y).stored[0]);
-        if (exact > 0)
-            worst = std::max(worst, std::fabs(static_cast<long double>(line[2]) - exact) / exact);
+        for (int y = 0; y < 3; ++y) exact += static_cast<long double>(from(0, y).stored[0]);
+        if (exact > 0) worst = std::max(worst, std::fabs(static_cast<long double>(line[2]) - exact) / exact);
     }
     CHECK(worst <= 0x1p-36L);
     CHECK(worst > 0x1p-36L * 0.9L);
@@ -163,8 +157,7 @@ TEST_CASE_TEMPLATE("after any filter 0 <= e <= m, and no far bound lies before i
         if (i % 2 ==
             0) // at the near plane e is m, and where each receiver touches its caster, the far bound is e: no room for an error
             for_each_texel(whole(from.size()), [&](int x, int y) {
-                if (!from(x, y).occupied())
-                    return;
+                if (!from(x, y).occupied()) return;
                 const float s = i % 4 == 0 ? 0.0f : roll.unit();
                 from(x, y) = Texel::caster(s);
                 from(x, y).bound(s);
@@ -189,8 +182,7 @@ TEST_CASE_TEMPLATE("clear is a fixed point of every filter, after 1000 passes to
     const image<Texel> clear({7, 5}, Texel::clear());
     for_each_kernel(kernels<box<2>, tent<2>, binomial<9>, gaussian<5>>{}, [&]<typename Kernel>() {
         image<Texel> map = clear;
-        for (int pass = 0; pass < 1000; ++pass)
-            map = dense<Kernel>(map);
+        for (int pass = 0; pass < 1000; ++pass) map = dense<Kernel>(map);
         CHECK(test::differences(map, clear) == 0);
     });
 }
@@ -225,8 +217,7 @@ TEST_CASE_TEMPLATE("the depth of a lone caster comes back from its whole penumbr
             const image<Texel> to = dense<Kernel>(from);
             for_each_texel(whole(to.size()), [&](int x, int y) {
                 const auto f = read(to(x, y));
-                if (!(f.mask() > 0.0))
-                    return;
+                if (!(f.mask() > 0.0)) return;
                 const double bound = Texel::channel_type::whole_codes ? (1.0 + t) / (2.0 * f.mask()) : t * 0x1p-22;
                 wrong += std::fabs(f.depth() / f.mask() - t) > bound * (1.0 + 1e-12);
             });
@@ -248,8 +239,7 @@ TEST_CASE_TEMPLATE("where no caster is in the footprint the result is clear, to 
                 for_each_texel(
                     clip({x - Kernel::radius, y - Kernel::radius, x + Kernel::radius + 1, y + Kernel::radius + 1}, to.size()),
                     [&](int i2, int j2) { any = any || from(i2, j2).occupied(); });
-                if (any)
-                    return;
+                if (any) return;
                 ++far;
                 wrong += !(to(x, y) == Texel::clear());
             });
@@ -313,8 +303,7 @@ TEST_CASE("images of different sizes share what both have, and an empty one shar
 }
 
 #ifdef NDEBUG
-TEST_CASE_TEMPLATE("without asserts, too narrow a scratch only cuts the region into strips", Texel, gnomon::rg8,
-                   gnomon::rgba32f) {
+TEST_CASE_TEMPLATE("without asserts, too narrow a scratch only cuts the region into strips", Texel, gnomon::rg8, gnomon::rgba32f) {
     dice roll(72);
     const auto from = test::noise<Texel>(roll, {31, 8}, 3);
     for (int width = 1; width <= 31; ++width)
@@ -324,6 +313,15 @@ TEST_CASE_TEMPLATE("without asserts, too narrow a scratch only cuts the region i
             gnomon::filter_region(from.view(), to.view(), whole(from.size()), scratch);
             CHECK(test::differences(to, dense<Kernel>(from)) == 0);
         });
+}
+
+TEST_CASE("without asserts, filtering an image into itself leaves it as it was") {
+    dice roll(73);
+    const auto before = test::noise<gnomon::rg16>(roll, {9, 9}, 2);
+    auto both = before;
+    filter_scratch<gnomon::rg16, box<1>> scratch(9);
+    gnomon::filter_region(both.view(), both.view(), whole(both.size()), scratch);
+    CHECK(test::differences(both, before) == 0);
 }
 
 TEST_CASE("without asserts, a scratch of nothing filters nothing") {

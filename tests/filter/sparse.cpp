@@ -23,8 +23,7 @@ using test::dice;
 
 using some_kernels = test::kernels<box<0>, box<1>, tent<2>, binomial<3>, gaussian<8>>;
 
-template <gnomon::kernel Kernel, typename Texel>
-image<Texel> sparse(const image<Texel>& casters, const tile_grid& tiles) {
+template <gnomon::kernel Kernel, typename Texel> image<Texel> sparse(const image<Texel>& casters, const tile_grid& tiles) {
     image<Texel> soft(casters.size(), Texel::clear());
     filter_scratch<Texel, Kernel> scratch(casters.size().width);
     gnomon::filter(gnomon::scalar{}, casters.view(), soft.view(), tiles, scratch);
@@ -43,11 +42,9 @@ TEST_CASE_TEMPLATE("for each of the 512 patterns of 3 x 3 tiles, sparse equals d
             image<Texel> casters(size, Texel::clear());
             tile_grid tiles(size, tile);
             for (int i = 0; i < 9; ++i) {
-                if ((pattern >> i & 1) == 0)
-                    continue;
+                if ((pattern >> i & 1) == 0) continue;
                 texel_rect r = tiles.texels_of({i % 3, i / 3, i % 3 + 1, i / 3 + 1});
-                if (roll.one_in(2))
-                    r = {r.x0 + 1, r.y0, r.x0 + 2, r.y1}; // a tile that is only partly covered
+                if (roll.one_in(2)) r = {r.x0 + 1, r.y0, r.x0 + 2, r.y1}; // a tile that is only partly covered
                 casters.view().fill(r, test::any_caster<Texel>(roll));
                 tiles.mark(r, Kernel::radius);
             }
@@ -71,11 +68,9 @@ TEST_CASE_TEMPLATE("any guard band gives the dense result: too wide costs time, 
         }
         test::for_each_kernel(some_kernels{}, [&]<typename Kernel>() {
             tile_grid tiles(size, roll(1, 20));
-            for (const texel_rect r : drawn)
-                tiles.mark(clip(r, size), roll(0, 2) * Kernel::radius + roll(-1, 2));
+            for (const texel_rect r : drawn) tiles.mark(clip(r, size), roll(0, 2) * Kernel::radius + roll(-1, 2));
             CHECK(test::differences(sparse<Kernel>(casters, tiles), dense<Kernel>(casters)) == 0);
-            if (!tiles.empty())
-                ++(tiles.guard() < Kernel::radius ? whole_maps : parts);
+            if (!tiles.empty()) ++(tiles.guard() < Kernel::radius ? whole_maps : parts);
         });
     }
     CHECK(whole_maps > 50);
@@ -103,8 +98,7 @@ TEST_CASE("clearing the marked tiles clears every texel of them and no other") {
     for (int round = 0; round < 50; ++round) {
         const extent size{roll(1, 60), roll(1, 60)};
         tile_grid tiles(size, roll(1, 13));
-        for (int n = roll(0, 4); n > 0; --n)
-            tiles.mark(roll.rect(size, 5), roll(0, 3));
+        for (int n = roll(0, 4); n > 0; --n) tiles.mark(roll.rect(size, 5), roll(0, 3));
         const image<gnomon::rgb8> full(size, gnomon::rgb8::caster(0.5f));
         image<gnomon::rgb8> cleared = full;
         gnomon::clear_tiles(cleared.view(), tiles);

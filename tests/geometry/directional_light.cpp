@@ -58,7 +58,8 @@ TEST_CASE("casters keep the margin free on every side, and the map is not larger
         double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9, z0 = 1e9, z1 = -1e9;
         bounding_sphere ball{roll.vector(100.0), roll(0.0, 50.0)};
         glm::dvec3 corner = roll.vector(100.0);
-        bounding_box box{corner, corner + glm::dvec3(roll(0, 30), roll(0, 30), roll(0, 30))}, ground{glm::dvec3(-200, 0, -90), glm::dvec3(100, 0, 400)};
+        bounding_box box{corner, corner + glm::dvec3(roll(0, 30), roll(0, 30), roll(0, 30))},
+            ground{glm::dvec3(-200, 0, -90), glm::dvec3(100, 0, 400)};
         sun.add_caster(ball);
         if (i % 2) sun.add_caster(box);
         if (i % 3 == 0) sun.add_receiver(ground);
@@ -119,7 +120,8 @@ TEST_CASE("every direction has a frame, also along the up hint, and up is up") {
     for (int x = -1; x <= 1; ++x)
         for (int y = -1; y <= 1; ++y)
             for (int z = -1; z <= 1; ++z)
-                for (const glm::dvec3 up : {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0), glm::dvec3(1, 1, 1), glm::dvec3(std::nan(""))}) {
+                for (const glm::dvec3 up : {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0),
+                                            glm::dvec3(1, 1, 1), glm::dvec3(std::nan(""))}) {
                     const glm::dvec3 direction(x, y, z);
                     directional_light sun(direction * 1e-9, up);
                     sun.add_caster(bounding_sphere{glm::dvec3(0), 1.0});

@@ -17,7 +17,9 @@ struct dice {
     std::mt19937_64 bits;
     double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(bits); }
     glm::dvec3 vector(double reach) { return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)}; }
-    glm::dvec3 inside(const bounding_box& b) { return {(*this)(b.lower.x, b.upper.x), (*this)(b.lower.y, b.upper.y), (*this)(b.lower.z, b.upper.z)}; }
+    glm::dvec3 inside(const bounding_box& b) {
+        return {(*this)(b.lower.x, b.upper.x), (*this)(b.lower.y, b.upper.y), (*this)(b.lower.z, b.upper.z)};
+    }
 };
 
 constexpr extent map_size{300, 260};
@@ -28,7 +30,13 @@ light_frame any_light(dice& roll, int i) {
         sun.add_caster(bounding_sphere{glm::dvec3(0), 12.0});
         return sun.frame(map_size, 4);
     }
-    if (i % 3 == 1) return spot_light{.position = roll.vector(i % 2 ? 15.0 : 5.0), .direction = roll.vector(1.0), .outer_angle = roll(0.2, 1.3), .near_plane = roll(0.1, 3.0), .far_plane = roll(5.0, 40.0)}.frame(map_size);
+    if (i % 3 == 1)
+        return spot_light{.position = roll.vector(i % 2 ? 15.0 : 5.0),
+                          .direction = roll.vector(1.0),
+                          .outer_angle = roll(0.2, 1.3),
+                          .near_plane = roll(0.1, 3.0),
+                          .far_plane = roll(5.0, 40.0)}
+            .frame(map_size);
     glm::dmat4 sheared(0.0);
     for (int c = 0; c < 3; ++c)
         for (int r = 0; r < 3; ++r) sheared[c][r] = roll(-0.07, 0.07);
@@ -64,7 +72,8 @@ struct seen {
         z1 = greater(z1, static_cast<double>(z));
         if (!on_map) return;
         ++points;
-        outside += !f.texels.contains(static_cast<int>(m.x), static_cast<int>(m.y)) || !(f.depth.nearest <= z && z <= f.depth.farthest);
+        outside +=
+            !f.texels.contains(static_cast<int>(m.x), static_cast<int>(m.y)) || !(f.depth.nearest <= z && z <= f.depth.farthest);
     }
     [[nodiscard]] bool whole() const { return hidden == 0 && x0 > 0.0 && y0 > 0.0 && x1 < map_size.width && y1 < map_size.height; }
     /// How far the farthest side of `f` is from the points, in texels.
@@ -135,7 +144,8 @@ TEST_CASE("every point of a ball that a light sees is in its footprint, and no s
         const double radius = 0.5 * greater(points_of_ball.x1 - points_of_ball.x0, points_of_ball.y1 - points_of_ball.y0);
         loosest = greater(loosest, points_of_ball.looseness(f) - 0.002 * radius);
         if (points_of_ball.z0 > 0.0 && points_of_ball.z1 < 1.0)
-            loosest_depth = greater(loosest_depth, points_of_ball.depth_looseness(f) - 0.0005 * (points_of_ball.z1 - points_of_ball.z0));
+            loosest_depth =
+                greater(loosest_depth, points_of_ball.depth_looseness(f) - 0.0005 * (points_of_ball.z1 - points_of_ball.z0));
     }
     CHECK(outside == 0);
     CHECK(points > 1000000);
@@ -147,7 +157,13 @@ TEST_CASE("every point of a ball that a light sees is in its footprint, and no s
 }
 
 TEST_CASE("what a spot light's near plane hides has no footprint, and what it cuts is cut") {
-    const light_frame light = spot_light{.position = {0, 10, 0}, .direction = {0, -1, 0}, .outer_angle = 0.7, .near_plane = 1.0, .far_plane = 11.0, .up = {0, 0, 1}}.frame({256, 256});
+    const light_frame light = spot_light{.position = {0, 10, 0},
+                                         .direction = {0, -1, 0},
+                                         .outer_angle = 0.7,
+                                         .near_plane = 1.0,
+                                         .far_plane = 11.0,
+                                         .up = {0, 0, 1}}
+                                  .frame({256, 256});
     const auto box = [&](double low, double high) { return footprint(bounding_box{{-0.5, low, -0.5}, {0.5, high, 0.5}}, light); };
     CHECK(box(9.01, 12.0).empty()); // before the near plane, and behind the light
     CHECK(box(10.5, 12.0).empty());
@@ -184,8 +200,10 @@ TEST_CASE("empty, absent and infinite bounds") {
         CHECK(footprint(bounding_sphere{{0, 0, 0}, -1.0}, light).empty());
         CHECK(footprint(bounding_sphere{{0, 0, 0}, not_a_number}, light).empty());
         CHECK(footprint(bounding_sphere{{0, not_a_number, 0}, 1.0}, light).empty());
-        CHECK(footprint(bounding_box{glm::dvec3(-infinity), glm::dvec3(infinity)}, light) == light_footprint{whole(map_size), {0.0f, 1.0f}});
+        CHECK(footprint(bounding_box{glm::dvec3(-infinity), glm::dvec3(infinity)}, light) ==
+              light_footprint{whole(map_size), {0.0f, 1.0f}});
         CHECK(footprint(bounding_sphere{{0, 0, 0}, infinity}, light) == light_footprint{whole(map_size), {0.0f, 1.0f}});
-        CHECK(footprint(bounding_box{glm::dvec3(1e300), glm::dvec3(infinity)}, light).empty() == footprint(bounding_box{glm::dvec3(1e30), glm::dvec3(1e30)}, light).empty());
+        CHECK(footprint(bounding_box{glm::dvec3(1e300), glm::dvec3(infinity)}, light).empty() ==
+              footprint(bounding_box{glm::dvec3(1e30), glm::dvec3(1e30)}, light).empty());
     }
 }

@@ -33,7 +33,8 @@ double distance(const map_point& a, const map_point& b) {
 map_point viewport(const glm::dvec4& clip_position, extent size, clip_space clip) {
     const glm::dvec3 ndc = glm::dvec3(clip_position) / clip_position.w;
     const double y = clip.row_0_is_top ? 0.5 - 0.5 * ndc.y : 0.5 + 0.5 * ndc.y;
-    const double z = clip.depth == clip_depth::zero_to_one ? ndc.z : (clip.depth == clip_depth::one_to_zero ? 1.0 - ndc.z : 0.5 + 0.5 * ndc.z);
+    const double z =
+        clip.depth == clip_depth::zero_to_one ? ndc.z : (clip.depth == clip_depth::one_to_zero ? 1.0 - ndc.z : 0.5 + 0.5 * ndc.z);
     return {(0.5 + 0.5 * ndc.x) * size.width, y * size.height, z};
 }
 
@@ -97,7 +98,9 @@ TEST_CASE("the clip matrix of a frame draws what the frame says, rebased in a wo
     const glm::dvec3 origin(1e6, -2e6, 3e6);
     directional_light sun({1, -2, 0.5});
     sun.add_caster(bounding_sphere{origin, 20.0});
-    const light_frame lamps[]{sun.frame(map_size, 3), spot_light{.position = origin + glm::dvec3(0, 30, 5), .direction = {0, -1, 0.1}, .near_plane = 1}.frame(map_size)};
+    const light_frame lamps[]{
+        sun.frame(map_size, 3),
+        spot_light{.position = origin + glm::dvec3(0, 30, 5), .direction = {0, -1, 0.1}, .near_plane = 1}.frame(map_size)};
     for (const light_frame& light : lamps)
         for (const clip_depth depth : all_depths)
             for (const bool top : {false, true}) {
@@ -110,7 +113,8 @@ TEST_CASE("the clip matrix of a frame draws what the frame says, rebased in a wo
                     const map_point expected = light.to_map(origin + glm::dvec3(relative));
                     const map_point drawn = viewport(glm::dvec4(matrix * glm::vec4(relative, 1.0f)), map_size, {depth, top});
                     worst = greater(worst, greater(std::abs(drawn.x - expected.x), std::abs(drawn.y - expected.y)));
-                    worst_depth = greater(worst_depth, std::abs(static_cast<double>(glm::dot(plane, glm::vec4(relative, 1.0f))) - expected.depth));
+                    worst_depth = greater(
+                        worst_depth, std::abs(static_cast<double>(glm::dot(plane, glm::vec4(relative, 1.0f))) - expected.depth));
                     if (!light.perspective()) worst_depth = greater(worst_depth, std::abs(drawn.depth - expected.depth));
                     if (light.perspective()) {
                         const double w = 1.0 + expected.depth * 99.0, hyperbolic = 100.0 * (w - 1.0) / (w * 99.0);
@@ -133,7 +137,8 @@ TEST_CASE("h17: at an offset of 1e6 m a world position is within 1e-6 texel of w
         sun.add_caster(bounding_sphere{offset, 93.0}); // a texel of 0.0917 m
         sun_here.add_caster(bounding_sphere{glm::dvec3(0), 93.0});
         const light_frame there = sun.frame(size), here = sun_here.frame(size);
-        const spot_light lamp{.position = offset + glm::dvec3(0, 90, 0), .direction = direction, .near_plane = 1.0, .far_plane = 201.0};
+        const spot_light lamp{
+            .position = offset + glm::dvec3(0, 90, 0), .direction = direction, .near_plane = 1.0, .far_plane = 201.0};
         spot_light lamp_here = lamp;
         lamp_here.position = {0, 90, 0};
         const light_frame cone = lamp.frame(size), cone_here = lamp_here.frame(size);
@@ -149,7 +154,8 @@ TEST_CASE("h17: at an offset of 1e6 m a world position is within 1e-6 texel of w
             worst = greater(worst, distance(along_a, along_b)); // the directional map snaps to another texel there
             worst = greater(worst, distance(cone.to_map(offset + p), cone_here.to_map(p)));
             const glm::vec4 direct = there.clip_matrix({}) * glm::vec4(glm::vec3(offset + p), 1.0f); // what not to do
-            if (std::abs(far_away - 1e6) < 1.0) float_error = greater(float_error, std::abs((0.5 + 0.5 * static_cast<double>(direct.x)) * 2048.0 - a.x));
+            if (std::abs(far_away - 1e6) < 1.0)
+                float_error = greater(float_error, std::abs((0.5 + 0.5 * static_cast<double>(direct.x)) * 2048.0 - a.x));
         }
         CAPTURE(far_away);
         CHECK(worst <= (far_away > 1e8 ? 1e-3 : 1e-6));
@@ -161,10 +167,12 @@ TEST_CASE("h17: a mesh with a double model matrix is drawn at 1e6 m as it is at 
     const std::vector<glm::vec3> corners{{-31, 0.5f, -20}, {40, 1, -33}, {3, 7, 55}};
     const std::vector<std::uint32_t> indices{0, 1, 2};
     const auto draw = [&](const glm::dvec3& offset) {
-        const light_frame light = spot_light{.position = offset + glm::dvec3(0, 90, 0), .direction = {0.1, -1, 0}, .near_plane = 1, .far_plane = 200}.frame({512, 512});
+        const light_frame light =
+            spot_light{.position = offset + glm::dvec3(0, 90, 0), .direction = {0.1, -1, 0}, .near_plane = 1, .far_plane = 200}
+                .frame({512, 512});
         std::vector<float> depths(512 * 512, 2.0f);
-        rasterize({.positions = corners, .indices = indices, .model = glm::translate(glm::dmat4(1.0), offset)}, light, everywhere, faces::both,
-                  [&](int x, int y, float z) { depths[static_cast<std::size_t>(y * 512 + x)] = z; });
+        rasterize({.positions = corners, .indices = indices, .model = glm::translate(glm::dmat4(1.0), offset)}, light, everywhere,
+                  faces::both, [&](int x, int y, float z) { depths[static_cast<std::size_t>(y * 512 + x)] = z; });
         return depths;
     };
     const std::vector<float> here = draw(glm::dvec3(0)), there = draw({1e6, 2e6, -1e6});
@@ -228,13 +236,13 @@ TEST_CASE("h19: a degenerate light makes an invalid frame, before which nothing 
     matrix(glm::dmat4(0.0));
     matrix(glm::dmat4(not_a_number));
     matrix(glm::orthoRH_NO(-1.0, 1.0, -1.0, 1.0, 1.0, infinity));
-    matrix(glm::dmat4(1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1));                                  // singular
-    matrix(glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1));                                 // w = -1
-    matrix(glm::perspectiveRH_NO(1.0, 1.0, 1.0, 1.0 + 1e-300));                                          // near == far: z is infinite
-    matrix(glm::perspectiveRH_NO(1.0, 1.0, 5.0, 1.0));                                                   // near beyond far
-    matrix(glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0.5, 0, -1.1, -1, 0, 0, -1, 0) * glm::dmat4(1.0));         // fine in depth
+    matrix(glm::dmat4(1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1));                          // singular
+    matrix(glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1));                         // w = -1
+    matrix(glm::perspectiveRH_NO(1.0, 1.0, 1.0, 1.0 + 1e-300));                                  // near == far: z is infinite
+    matrix(glm::perspectiveRH_NO(1.0, 1.0, 5.0, 1.0));                                           // near beyond far
+    matrix(glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0.5, 0, -1.1, -1, 0, 0, -1, 0) * glm::dmat4(1.0)); // fine in depth
     frames.pop_back();
-    matrix(glm::dmat4(1, 0, 0.5, 0, 0, 1, 0, 0, 0, 0, -1.1, -1, 0, 0, -1, 0));                           // an oblique near plane
+    matrix(glm::dmat4(1, 0, 0.5, 0, 0, 1, 0, 0, 0, 0, -1.1, -1, 0, 0, -1, 0)); // an oblique near plane
     frames.push_back(light_frame(glm::dmat4(1.0), size, 0.0, 1.0));
     frames.push_back(light_frame(glm::dmat4(1.0), size, 2.0, 1.0));
 
@@ -258,7 +266,8 @@ TEST_CASE("h19: a degenerate light makes an invalid frame, before which nothing 
 }
 
 TEST_CASE("h19: what is behind a spot light or beside it is nowhere, and no divide sees its w") {
-    const light_frame light = spot_light{.position = {0, 5, 0}, .direction = {0, -1, 0}, .near_plane = 1.0, .far_plane = 10.0}.frame({64, 64});
+    const light_frame light =
+        spot_light{.position = {0, 5, 0}, .direction = {0, -1, 0}, .near_plane = 1.0, .far_plane = 10.0}.frame({64, 64});
     for (const double y : {5.0, 5.000001, 6.0, 1e6, 1e30, infinity, not_a_number}) {
         const map_point p = light.to_map({0.5, y, 0.25});
         CHECK_FALSE(p.in_front());

@@ -51,7 +51,9 @@ struct mesh_data {
         static constexpr int faces_of_box[6][4]{{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
         for (const auto& f : faces_of_box) add(box.corner(f[0]), box.corner(f[1]), box.corner(f[2]), box.corner(f[3]));
     }
-    [[nodiscard]] triangle_mesh mesh(const glm::dmat4& model = glm::dmat4(1.0)) const { return {.positions = positions, .indices = indices, .model = model}; }
+    [[nodiscard]] triangle_mesh mesh(const glm::dmat4& model = glm::dmat4(1.0)) const {
+        return {.positions = positions, .indices = indices, .model = model};
+    }
 };
 
 /// Everything that was drawn: how often, the last, the nearest and the farthest depth.
@@ -61,7 +63,9 @@ struct canvas {
     std::vector<int> count;
     std::vector<float> last, nearest, farthest;
 
-    explicit canvas(extent s) : size(s), count(static_cast<std::size_t>(s.width * s.height)), last(count.size()), nearest(count.size(), 1e9f), farthest(count.size(), -1e9f) {}
+    explicit canvas(extent s)
+        : size(s), count(static_cast<std::size_t>(s.width * s.height)), last(count.size()), nearest(count.size(), 1e9f),
+          farthest(count.size(), -1e9f) {}
     [[nodiscard]] std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * size.width + x); }
     void operator()(int x, int y, float z) {
         if (!whole(size).contains(x, y)) {
@@ -108,15 +112,19 @@ struct ray_light {
             const glm::dvec3 zero(frame.matrix()[3]);
             return {glm::inverse(linear) * (glm::dvec3(x, y, 0.0) - zero), glm::inverse(linear) * glm::dvec3(0, 0, 1), 0.0, 1.0};
         }
-        const glm::dvec3 forward = glm::normalize(spot.direction), right = glm::normalize(glm::cross(forward, spot.up)), up = glm::cross(right, forward);
-        const double focal = 0.5 * lesser(map_size.width, map_size.height) / std::tan(spot.outer_angle), range = spot.far_plane - spot.near_plane;
-        return {spot.position, forward + right * ((x - 0.5 * map_size.width) / focal) + up * ((y - 0.5 * map_size.height) / focal), -spot.near_plane / range, 1.0 / range};
+        const glm::dvec3 forward = glm::normalize(spot.direction), right = glm::normalize(glm::cross(forward, spot.up)),
+                         up = glm::cross(right, forward);
+        const double focal = 0.5 * lesser(map_size.width, map_size.height) / std::tan(spot.outer_angle),
+                     range = spot.far_plane - spot.near_plane;
+        return {spot.position, forward + right * ((x - 0.5 * map_size.width) / focal) + up * ((y - 0.5 * map_size.height) / focal),
+                -spot.near_plane / range, 1.0 / range};
     }
     /// The depth at which the ray meets the triangle; NaN if it does not.
     [[nodiscard]] double depth_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double x, double y) const {
         const ray r = through(x, y);
         const glm::dvec3 ab = b - a, ac = c - a, p = glm::cross(r.direction, ac), from_a = r.start - a, q = glm::cross(from_a, ab);
-        const double det = glm::dot(ab, p), u = glm::dot(from_a, p) / det, v = glm::dot(r.direction, q) / det, t = glm::dot(ac, q) / det;
+        const double det = glm::dot(ab, p), u = glm::dot(from_a, p) / det, v = glm::dot(r.direction, q) / det,
+                     t = glm::dot(ac, q) / det;
         const double z = r.start_depth + t * r.rate;
         const bool hit = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (!perspective || z >= 0.0);
         return hit ? z : std::nan("");
@@ -129,7 +137,11 @@ ray_light any_light(dice& roll, int i) {
         sun.add_caster(bounding_sphere{glm::dvec3(0), 6.0});
         return {sun.frame(map_size, 2), {}, false};
     }
-    const spot_light spot{.position = roll.vector(4.0), .direction = roll.vector(1.0), .outer_angle = roll(0.3, 1.2), .near_plane = roll(0.2, 2.0), .far_plane = roll(6.0, 20.0)};
+    const spot_light spot{.position = roll.vector(4.0),
+                          .direction = roll.vector(1.0),
+                          .outer_angle = roll(0.3, 1.2),
+                          .near_plane = roll(0.2, 2.0),
+                          .far_plane = roll(6.0, 20.0)};
     return {spot.frame(map_size), spot, true};
 }
 
@@ -139,7 +151,8 @@ mesh_data jittered_sheet(dice& roll, int cells, double height) {
     for (int v = 0; v <= cells; ++v)
         for (int u = 0; u <= cells; ++u) {
             const bool rim_u = u == 0 || u == cells, rim_v = v == 0 || v == cells;
-            m.add(glm::dvec3(2.0 * (u + (rim_u ? 0.0 : roll(-0.24, 0.24))) / cells - 1.0, roll(-height, height), 2.0 * (v + (rim_v ? 0.0 : roll(-0.24, 0.24))) / cells - 1.0));
+            m.add(glm::dvec3(2.0 * (u + (rim_u ? 0.0 : roll(-0.24, 0.24))) / cells - 1.0, roll(-height, height),
+                             2.0 * (v + (rim_v ? 0.0 : roll(-0.24, 0.24))) / cells - 1.0));
         }
     for (int v = 0; v < cells; ++v)
         for (int u = 0; u < cells; ++u) {
@@ -156,10 +169,15 @@ TEST_CASE("a tessellated sheet that hides the whole map is drawn exactly once in
     for (int i = 0; i < 60; ++i) {
         const int cells = 1 + i % 30;
         const mesh_data sheet = jittered_sheet(roll, cells, 0.1 / cells);
-        const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), roll(-3.0, 3.0), glm::dvec3(0, 1, 0)) * glm::scale(glm::dmat4(1.0), glm::dvec3(30.0, 1.0, 30.0));
+        const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), roll(-3.0, 3.0), glm::dvec3(0, 1, 0)) *
+                                glm::scale(glm::dmat4(1.0), glm::dvec3(30.0, 1.0, 30.0));
         directional_light sun({0.01, -1, 0.02});
         sun.add_caster(bounding_sphere{glm::dvec3(0), 9.0});
-        const light_frame lights[]{sun.frame(map_size), spot_light{.position = {0.3, 9, 0.2}, .direction = {0.01, -1, 0.02}, .outer_angle = 0.8, .near_plane = 1.0, .far_plane = 12.0}.frame(map_size)};
+        const light_frame lights[]{
+            sun.frame(map_size),
+            spot_light{
+                .position = {0.3, 9, 0.2}, .direction = {0.01, -1, 0.02}, .outer_angle = 0.8, .near_plane = 1.0, .far_plane = 12.0}
+                .frame(map_size)};
         for (const light_frame& light : lights) {
             CAPTURE(i);
             CHECK(draw(sheet.mesh(turn), light).not_once() == 0);
@@ -171,27 +189,32 @@ TEST_CASE("no gap and no double write where corners are a million maps away, or 
     dice roll{std::mt19937_64(2)};
     for (int i = 0; i < 200; ++i) {
         const double reach = std::exp(roll(3.0, 27.0)); // to 5e11
-        mesh_data fan; // around a hub on the map, its rim far out
+        mesh_data fan;                                  // around a hub on the map, its rim far out
         const auto hub = fan.add(glm::dvec3(roll(-5.0, 5.0), 0.0, roll(-5.0, 5.0)));
         const int spokes = 5 + i % 9;
         for (int k = 0; k < spokes; ++k) {
             const double turn = (k + roll(-0.3, 0.3)) * 6.283185307179586 / spokes;
             fan.add(glm::dvec3(reach * std::cos(turn), 0.0, reach * std::sin(turn)));
         }
-        for (int k = 0; k < spokes; ++k) fan.add(hub, static_cast<std::uint32_t>(1 + k), static_cast<std::uint32_t>(1 + (k + 1) % spokes));
+        for (int k = 0; k < spokes; ++k)
+            fan.add(hub, static_cast<std::uint32_t>(1 + k), static_cast<std::uint32_t>(1 + (k + 1) % spokes));
         directional_light sun({0.2, -1, -0.1});
         sun.add_caster(bounding_sphere{glm::dvec3(0), 9.0});
         CAPTURE(reach);
         CHECK(draw(fan.mesh(), sun.frame(map_size)).not_once() == 0);
         // The horizon is in the picture: the near plane and the plane through the light cut most triangles.
-        const light_frame lamp = spot_light{.position = {0, 3, 0}, .direction = {0.3, -0.5, 1}, .outer_angle = 0.9, .near_plane = 2.5, .far_plane = 9.0}.frame(map_size);
+        const light_frame lamp =
+            spot_light{.position = {0, 3, 0}, .direction = {0.3, -0.5, 1}, .outer_angle = 0.9, .near_plane = 2.5, .far_plane = 9.0}
+                .frame(map_size);
         const canvas c = draw(fan.mesh(), lamp);
         int twice = 0, ground = 0, missing = 0;
         for (int y = 0; y < map_size.height; ++y)
             for (int x = 0; x < map_size.width; ++x) {
-                const glm::dvec3 forward = glm::normalize(glm::dvec3(0.3, -0.5, 1)), right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
+                const glm::dvec3 forward = glm::normalize(glm::dvec3(0.3, -0.5, 1)),
+                                 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
                 const double focal = 40.0 / std::tan(0.9);
-                const glm::dvec3 d = forward + right * ((x + 0.5 - 48.0) / focal) + glm::cross(right, forward) * ((y + 0.5 - 40.0) / focal);
+                const glm::dvec3 d =
+                    forward + right * ((x + 0.5 - 48.0) / focal) + glm::cross(right, forward) * ((y + 0.5 - 40.0) / focal);
                 const double t = d.y < 0.0 ? -3.0 / d.y : infinity; // where the ray meets y = 0
                 twice += c.count[c.at(x, y)] > 1;
                 if (t < 2.51 || t > reach * 0.2) continue;
@@ -204,7 +227,8 @@ TEST_CASE("no gap and no double write where corners are a million maps away, or 
     }
 }
 
-TEST_CASE("triangles anywhere, behind the light and across its near plane too, cover what rays meet, at the depth where rays meet it") {
+TEST_CASE(
+    "triangles anywhere, behind the light and across its near plane too, cover what rays meet, at the depth where rays meet it") {
     dice roll{std::mt19937_64(3)};
     int wrong = 0, checked = 0, cut = 0;
     double worst = 0.0;
@@ -225,7 +249,8 @@ TEST_CASE("triangles anywhere, behind the light and across its near plane too, c
                 const double z = light.depth_of(a, b, c, x + 0.5, y + 0.5);
                 int hits = 0; // a centre this near an edge may go either way: corners are snapped to 1/256
                 for (const double dx : {-0.004, 0.004})
-                    for (const double dy : {-0.004, 0.004}) hits += !std::isnan(light.depth_of(a, b, c, x + 0.5 + dx, y + 0.5 + dy));
+                    for (const double dy : {-0.004, 0.004})
+                        hits += !std::isnan(light.depth_of(a, b, c, x + 0.5 + dx, y + 0.5 + dy));
                 if (hits % 4 != 0) continue;
                 ++checked;
                 wrong += covered != !std::isnan(z) || covered != (hits == 4);
@@ -299,7 +324,16 @@ TEST_CASE("triangles that cannot be drawn are left out, and their neighbours are
 
 TEST_CASE("random garbage is drawn without a fault, and never off the target") {
     dice roll{std::mt19937_64(4)};
-    constexpr float specials[]{0.0f, -0.0f, 1e-45f, 1e-30f, 1.0f, 3e38f, -3e38f, 1e20f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()};
+    constexpr float specials[]{0.0f,
+                               -0.0f,
+                               1e-45f,
+                               1e-30f,
+                               1.0f,
+                               3e38f,
+                               -3e38f,
+                               1e20f,
+                               std::numeric_limits<float>::infinity(),
+                               std::numeric_limits<float>::quiet_NaN()};
     int drawn = 0;
     for (int i = 0; i < 3000; ++i) {
         const ray_light light = any_light(roll, i);
@@ -310,7 +344,8 @@ TEST_CASE("random garbage is drawn without a fault, and never off the target") {
             m.positions.push_back(p);
         }
         for (int k = 0; k < 30; ++k) m.indices.push_back(static_cast<std::uint32_t>(roll(0.0, 9.2)));
-        const texel_rect target{static_cast<int>(roll(-20, 90)), static_cast<int>(roll(-20, 90)), static_cast<int>(roll(0, 120)), static_cast<int>(roll(0, 120))};
+        const texel_rect target{static_cast<int>(roll(-20, 90)), static_cast<int>(roll(-20, 90)), static_cast<int>(roll(0, 120)),
+                                static_cast<int>(roll(0, 120))};
         int outside = 0;
         const light_footprint touched = rasterize(m.mesh(), light.frame, target, faces::both, [&](int x, int y, float z) {
             ++drawn;
@@ -329,11 +364,14 @@ TEST_CASE("a steep sliver never leaves the depths of its corners") {
     for (int i = 0; i < 20000; ++i) {
         const ray_light light = any_light(roll, i % 2);
         mesh_data m;
-        const glm::dvec3 a = roll.vector(4.0), along(detail::row(light.frame.matrix(), 2)), across = glm::cross(along, roll.vector(40.0));
-        m.add(a, a + across, a + across * roll(0.0, 1.0) + along * roll(0.0, 20.0) + roll.vector(i % 3 ? 0.01 : 1e-7)); // nearly edge-on
+        const glm::dvec3 a = roll.vector(4.0), along(detail::row(light.frame.matrix(), 2)),
+                         across = glm::cross(along, roll.vector(40.0));
+        m.add(a, a + across,
+              a + across * roll(0.0, 1.0) + along * roll(0.0, 20.0) + roll.vector(i % 3 ? 0.01 : 1e-7)); // nearly edge-on
         double lowest = infinity, highest = -infinity;
         for (const glm::vec3& p : m.positions) {
-            const double z = detail::row(light.frame.matrix(), 2).w + glm::dot(glm::dvec3(detail::row(light.frame.matrix(), 2)), glm::dvec3(p));
+            const double z =
+                detail::row(light.frame.matrix(), 2).w + glm::dot(glm::dvec3(detail::row(light.frame.matrix(), 2)), glm::dvec3(p));
             lowest = lesser(lowest, z);
             highest = greater(highest, z);
         }
@@ -352,12 +390,15 @@ TEST_CASE("a solid turns one side to the light and one away, also when its model
         const ray_light light = any_light(roll, i);
         mesh_data m;
         m.add(bounding_box{glm::dvec3(-1.0, -0.7, -0.5), glm::dvec3(0.5, 1.0, 0.9)});
-        glm::dmat4 model = glm::rotate(glm::translate(glm::dmat4(1.0), roll.vector(2.0)), roll(-3.0, 3.0), glm::normalize(roll.vector(1.0)));
+        glm::dmat4 model =
+            glm::rotate(glm::translate(glm::dmat4(1.0), roll.vector(2.0)), roll(-3.0, 3.0), glm::normalize(roll.vector(1.0)));
         if (i % 4 >= 2) model = glm::scale(model, glm::dvec3(1.0, -1.0, 2.0));
         bool before_light = true; // wholly, so that it has two sides
-        for (const glm::vec3& p : m.positions) before_light = before_light && light.frame.to_map(glm::dvec3(model * glm::dvec4(glm::dvec3(p), 1.0))).depth > 0.0;
+        for (const glm::vec3& p : m.positions)
+            before_light = before_light && light.frame.to_map(glm::dvec3(model * glm::dvec4(glm::dvec3(p), 1.0))).depth > 0.0;
         if (!before_light) continue;
-        const canvas all = draw(m.mesh(model), light.frame), lit = draw(m.mesh(model), light.frame, faces::lit_side), dark = draw(m.mesh(model), light.frame, faces::dark_side);
+        const canvas all = draw(m.mesh(model), light.frame), lit = draw(m.mesh(model), light.frame, faces::lit_side),
+                     dark = draw(m.mesh(model), light.frame, faces::dark_side);
         int wrong = 0;
         for (std::size_t k = 0; k < all.count.size(); ++k) {
             wrong += all.count[k] != lit.count[k] + dark.count[k];

@@ -49,7 +49,9 @@ struct counted {
 
 struct dice {
     std::mt19937_64 bits;
-    std::int64_t operator()(std::int64_t low, std::int64_t high) { return std::uniform_int_distribution<std::int64_t>(low, high)(bits); }
+    std::int64_t operator()(std::int64_t low, std::int64_t high) {
+        return std::uniform_int_distribution<std::int64_t>(low, high)(bits);
+    }
 };
 
 int differences(counted& drawn, fixed_point a, fixed_point b, fixed_point c) {
@@ -161,7 +163,8 @@ constexpr int texels_of(fixed_point a, fixed_point b, fixed_point c) {
     gnomon::detail::scan(corners, 3, {0, 0, 100, 100}, [&](int, int x0, int x1) { count += x1 - x0; });
     return count;
 }
-static_assert(texels_of({0, 0}, {2560, 0}, {0, 2560}) == 45, "half a square whose diagonal runs through 10 centres, none of them its own");
+static_assert(texels_of({0, 0}, {2560, 0}, {0, 2560}) == 45,
+              "half a square whose diagonal runs through 10 centres, none of them its own");
 static_assert(texels_of({2560, 2560}, {2560, 0}, {0, 2560}) == 55, "the other half owns them: they are on its left edge");
 static_assert(texels_of({0, 0}, {2560, 2560}, {5120, 5120}) == 0, "a line covers nothing");
 } // namespace

@@ -23,11 +23,14 @@ TEST_CASE("h18: depth is linear in the distance along the axis, wherever beside 
     for (int i = 0; i < 20000; ++i) {
         const glm::dvec3 axis = glm::normalize(roll.vector(1.0)), position = roll.vector(50.0);
         const double near_plane = roll(0.01, 5.0), far_plane = near_plane + roll(0.1, 1000.0);
-        const light_frame light = spot_light{.position = position, .direction = axis * 3.0, .near_plane = near_plane, .far_plane = far_plane}.frame({128, 128});
+        const light_frame light =
+            spot_light{.position = position, .direction = axis * 3.0, .near_plane = near_plane, .far_plane = far_plane}.frame(
+                {128, 128});
         const double distance = roll(0.001, 1200.0);
         const glm::dvec3 beside = glm::cross(axis, roll.vector(1.0)) * distance;
         const double expected = (distance - near_plane) / (far_plane - near_plane);
-        worst = greater(worst, std::abs(light.to_map(position + axis * distance + beside).depth - expected) / (1.0 + std::abs(expected)));
+        worst = greater(worst,
+                        std::abs(light.to_map(position + axis * distance + beside).depth - expected) / (1.0 + std::abs(expected)));
     }
     CHECK(worst < 1e-11);
 }
@@ -48,7 +51,8 @@ TEST_CASE("the rim of the cone keeps the margin, and touches it") {
         const glm::dvec3 axis = glm::normalize(roll.vector(1.0)), position = roll.vector(9.0);
         const extent size{50 + i % 40, 50 + i % 30};
         const int margin = i % 7;
-        const light_frame light = spot_light{.position = position, .direction = axis, .outer_angle = angle, .up = roll.vector(1.0)}.frame(size, margin);
+        const light_frame light =
+            spot_light{.position = position, .direction = axis, .outer_angle = angle, .up = roll.vector(1.0)}.frame(size, margin);
         REQUIRE(light.valid());
         const glm::dvec3 side = glm::normalize(glm::cross(axis, roll.vector(1.0))), other = glm::cross(axis, side);
         const double radius = 0.5 * lesser(size.width, size.height) - margin;

@@ -34,41 +34,34 @@ struct twin {
     gnomon::const_bit_row row() const { return {words.data() + 1, size()}; }
     bool bit(int i) const { return bits[static_cast<std::size_t>(i)]; }
     void fill(int first, int last, bool value) {
-        for (int i = first; i < last; ++i)
-            bits[static_cast<std::size_t>(i)] = value;
+        for (int i = first; i < last; ++i) bits[static_cast<std::size_t>(i)] = value;
     }
     int count(int first, int last) const {
         int n = 0;
-        for (int i = first; i < last; ++i)
-            n += bit(i);
+        for (int i = first; i < last; ++i) n += bit(i);
         return n;
     }
     int next(int from, bool value) const {
-        while (from < size() && bit(from) != value)
-            ++from;
+        while (from < size() && bit(from) != value) ++from;
         return from;
     }
     /// Equal in every bit, and nothing else touched: not the words beside the row, not the bits after its end.
     bool agrees() const {
-        if (words.front() != sentinel || words.back() != sentinel)
-            return false;
+        if (words.front() != sentinel || words.back() != sentinel) return false;
         for (int i = 0; i < gnomon::words_for(size()) * gnomon::bits_per_word; ++i) {
             const bool set = (words[1 + static_cast<std::size_t>(i / 64)] >> (i % 64) & 1) != 0;
-            if (set != (i < size() && bit(i)))
-                return false;
+            if (set != (i < size() && bit(i))) return false;
         }
         return true;
     }
 };
 
 /// Calls f(first, last) for all spans of a short row, and of a long one for those that begin or end around a word's border.
-template <typename F>
-void for_each_span(int size, F&& f) {
+template <typename F> void for_each_span(int size, F&& f) {
     const auto telling = [size](int i) { return size <= 66 || i <= 1 || i >= size - 1 || (i + 2) % 64 <= 4; };
     for (int first = 0; first <= size; ++first)
         for (int last = first; last <= size; ++last)
-            if (telling(first) && telling(last))
-                f(first, last);
+            if (telling(first) && telling(last)) f(first, last);
 }
 } // namespace
 
@@ -101,8 +94,7 @@ TEST_CASE("any, all and is_run answer for a span what its bits say one by one") 
             const bool maximal = (first == 0 || !t.bit(first - 1)) && (last == size || !t.bit(last));
             wrong += t.row().any(first, last) != (set > 0);
             wrong += t.row().all(first, last) != (set == last - first);
-            if (first < last)
-                wrong += t.row().is_run(first, last) != (set == last - first && maximal);
+            if (first < last) wrong += t.row().is_run(first, last) != (set == last - first && maximal);
         });
         CAPTURE(size);
         CHECK(wrong == 0);
@@ -116,8 +108,7 @@ TEST_CASE("the next set or clear bit is found from every place, and runs come wh
         int wrong = 0;
         for (int i = 0; i <= size; ++i) {
             wrong += t.row().next_set(i) != t.next(i, true) || t.row().next_clear(i) != t.next(i, false);
-            if (i < size)
-                wrong += t.row().test(i) != t.bit(i);
+            if (i < size) wrong += t.row().test(i) != t.bit(i);
         }
         std::vector<std::pair<int, int>> runs, expected;
         t.row().for_each_run([&](int first, int last) { runs.emplace_back(first, last); });

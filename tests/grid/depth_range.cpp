@@ -25,10 +25,8 @@ struct marked {
 depth_interval depth_of(const std::vector<marked>& casters, texel_rect tile) {
     std::vector<float> depths;
     for (const marked& c : casters)
-        if (!intersection(c.reach, tile).empty())
-            depths.insert(depths.end(), {c.depth.nearest, c.depth.farthest});
-    if (depths.empty())
-        return {};
+        if (!intersection(c.reach, tile).empty()) depths.insert(depths.end(), {c.depth.nearest, c.depth.farthest});
+    if (depths.empty()) return {};
     const auto [nearest, farthest] = std::minmax_element(depths.begin(), depths.end());
     return {*nearest, *farthest};
 }
@@ -45,8 +43,7 @@ TEST_CASE("each tile knows the depths of the casters around it, frame after fram
             const int guard = roll(-1, 9);
             depth_interval depth{roll.unit(), roll.unit()};
             tiles.mark(r, depth, guard);
-            if (depth.empty())
-                depth = {0.0f, 1.0f};
+            if (depth.empty()) depth = {0.0f, 1.0f};
             casters.push_back({clip(grow(r, guard), {90, 75}), depth});
         }
         int wrong = 0;

@@ -52,15 +52,13 @@ struct engine {
     }
     bool cast(eighths r) {
         const long right = 8L * map.width, top = 8L * map.height;
-        if (r.x1 <= 0 || r.y1 <= 0 || r.x0 >= right || r.y0 >= top)
-            return false; // before dilation
+        if (r.x1 <= 0 || r.y1 <= 0 || r.x0 >= right || r.y0 >= top) return false; // before dilation
         const eighths on_map{std::max(r.x0, 0L), std::max(r.y0, 0L), std::min(r.x1, right), std::min(r.y1, top)};
         box = !box ? on_map
                    : eighths{std::min(box->x0, on_map.x0), std::min(box->y0, on_map.y0), std::max(box->x1, on_map.x1),
                              std::max(box->y1, on_map.y1)};
         for (long y = tile(r.y0 - 8 * guard, map.height); y <= tile(r.y1 + 8 * guard, map.height); ++y)
-            for (long x = tile(r.x0 - 8 * guard, map.width); x <= tile(r.x1 + 8 * guard, map.width); ++x)
-                at(x, y) = true;
+            for (long x = tile(r.x0 - 8 * guard, map.width); x <= tile(r.x1 + 8 * guard, map.width); ++x) at(x, y) = true;
         return true;
     }
     bool receives(eighths r) const {
@@ -69,42 +67,34 @@ struct engine {
             return false;
         for (long y = tile(r.y0, map.height); y <= tile(r.y1, map.height); ++y)
             for (long x = tile(r.x0, map.width); x <= tile(r.x1, map.width); ++x)
-                if (set[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)])
-                    return true;
+                if (set[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)]) return true;
         return false;
     }
     std::vector<tile_rect> rects() const {
-        if (!box)
-            return {};
-        if (box->x0 == box->x1 || box->y0 == box->y1)
-            return {{0, 0, side, side}};
+        if (!box) return {};
+        if (box->x0 == box->x1 || box->y0 == box->y1) return {{0, 0, side, side}};
         std::vector<tile_rect> found;
         auto left = set;
         for (std::size_t y = 0; y < side; ++y) {
             const auto snapshot = left[y];
             for (std::size_t first = 0; first < side; ++first) {
-                if (!snapshot[first] || (first > 0 && snapshot[first - 1]))
-                    continue;
+                if (!snapshot[first] || (first > 0 && snapshot[first - 1])) continue;
                 std::size_t last = first, end = y;
-                while (last < side && snapshot[last])
-                    ++last;
+                while (last < side && snapshot[last]) ++last;
                 const auto contains = [&](const auto& row) {
                     for (std::size_t x = first; x < last; ++x)
-                        if (!row[x])
-                            return false;
+                        if (!row[x]) return false;
                     return true;
                 };
                 for (; contains(left[end]); ++end)
-                    for (std::size_t x = first; x < last; ++x)
-                        left[end][x] = false;
+                    for (std::size_t x = first; x < last; ++x) left[end][x] = false;
                 found.push_back({static_cast<int>(first), static_cast<int>(y), static_cast<int>(last), static_cast<int>(end)});
             }
         }
         return found;
     }
     texel_rect scissor() const {
-        if (!box)
-            return {};
+        if (!box) return {};
         const auto down = [](long v) { return v / 8; }; // of a rectangle on the map, so never negative
         const auto up = [](long v) { return (v + 7) / 8; };
         const auto limit = [](long v, int texels) { return static_cast<int>(std::max(2L, std::min(v, texels - 2L))); };
@@ -112,7 +102,7 @@ struct engine {
                 limit(up(box->x1) + reach, map.width), limit(up(box->y1) + reach, map.height)};
     }
 
-private:
+  private:
     bool& at(long x, long y) { return set[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)]; }
 };
 
@@ -121,20 +111,16 @@ nlohmann::json vectors() {
     REQUIRE(file);
     return nlohmann::json::parse(file).at("vectors");
 }
-real_rect rect(const nlohmann::json& j) {
-    return {j.at(0), j.at(1), j.at(2), j.at(3)};
-}
+real_rect rect(const nlohmann::json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3)}; }
 
 reference_grid with_casters(const nlohmann::json& v) {
     reference_grid grid({v.at("width"), v.at("height")}, v.at("radius"), v.at("margin"));
-    for (const auto& caster : v.at("casters"))
-        grid.cast(rect(caster));
+    for (const auto& caster : v.at("casters")) grid.cast(rect(caster));
     return grid;
 }
 nlohmann::json vector_named(const std::string& prefix) {
     for (const auto& v : vectors())
-        if (v.at("name").get<std::string>().starts_with(prefix))
-            return v;
+        if (v.at("name").get<std::string>().starts_with(prefix)) return v;
     return {};
 }
 } // namespace
@@ -195,8 +181,7 @@ TEST_CASE("random casters and receivers, fractional and on maps of any size, are
         }
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 32; ++x)
-                wrong +=
-                    (grid.row(y) >> x & 1) != (truth.set[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] ? 1u : 0u);
+                wrong += (grid.row(y) >> x & 1) != (truth.set[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] ? 1u : 0u);
         wrong += rects_of(grid) != truth.rects();
         const texel_rect scissor = truth.scissor();
         wrong += scissor.empty() ? !grid.blur_scissor().empty() : grid.blur_scissor() != scissor;
@@ -262,14 +247,15 @@ TEST_CASE("a cleared reference grid is a new one") {
     CHECK(rects_of(grid) == std::vector<tile_rect>{{14, 14, 18, 18}});
 }
 
-TEST_CASE("V05, V06: an upper edge on a tile border takes the next tile in the engine, and in a tile_grid it takes none it does not "
-          "touch") {
+TEST_CASE(
+    "V05, V06: an upper edge on a tile border takes the next tile in the engine, and in a tile_grid it takes none it does not "
+    "touch") {
     for (const char* name : {"V05", "V06"}) {
         const auto v = vector_named(name);
         gnomon::tile_grid grid({512, 512}, 16);
         const real_rect r = rect(v.at("casters").at(0));
-        const tile_rect marked = grid.mark(gnomon::enclosing_texels(r.x0, r.y0, r.x1, r.y1),
-                                           2 * v.at("radius").get<int>() + v.at("margin").get<int>());
+        const tile_rect marked =
+            grid.mark(gnomon::enclosing_texels(r.x0, r.y0, r.x1, r.y1), 2 * v.at("radius").get<int>() + v.at("margin").get<int>());
         CAPTURE(name);
         CHECK(marked == tile_rect{1, 1, 2, 2});
         CHECK(with_casters(v).tiles().count() == (std::string(name) == "V05" ? 4 : 1));

@@ -31,16 +31,13 @@ rects merged_greedily(const tile_grid& grid) {
 bool cover_exactly(const tile_grid& grid, const rects& found) {
     std::vector<int> painted(static_cast<std::size_t>(grid.columns() * grid.rows()));
     for (const tile_rect r : found) {
-        if (r.empty() || r.x0 < 0 || r.y0 < 0 || r.x1 > grid.columns() || r.y1 > grid.rows())
-            return false;
+        if (r.empty() || r.x0 < 0 || r.y0 < 0 || r.x1 > grid.columns() || r.y1 > grid.rows()) return false;
         for (int y = r.y0; y < r.y1; ++y)
-            for (int x = r.x0; x < r.x1; ++x)
-                ++painted[static_cast<std::size_t>(y * grid.columns() + x)];
+            for (int x = r.x0; x < r.x1; ++x) ++painted[static_cast<std::size_t>(y * grid.columns() + x)];
     }
     for (int y = 0; y < grid.rows(); ++y)
         for (int x = 0; x < grid.columns(); ++x)
-            if (painted[static_cast<std::size_t>(y * grid.columns() + x)] != (grid.test(x, y) ? 1 : 0))
-                return false;
+            if (painted[static_cast<std::size_t>(y * grid.columns() + x)] != (grid.test(x, y) ? 1 : 0)) return false;
     return true;
 }
 
@@ -52,8 +49,7 @@ bool joinable(tile_rect a, tile_rect b) {
 bool none_joinable(const rects& found) {
     for (std::size_t i = 0; i < found.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (joinable(found[i], found[j]))
-                return false;
+            if (joinable(found[i], found[j])) return false;
     return true;
 }
 bool in_order(const rects& found) {
@@ -64,8 +60,7 @@ bool in_order(const rects& found) {
 bool whole_runs(const tile_grid& grid, const rects& found) {
     for (const tile_rect r : found)
         for (int y = r.y0; y < r.y1; ++y)
-            if ((r.x0 > 0 && grid.test(r.x0 - 1, y)) || (r.x1 < grid.columns() && grid.test(r.x1, y)))
-                return false;
+            if ((r.x0 > 0 && grid.test(r.x0 - 1, y)) || (r.x1 < grid.columns() && grid.test(r.x1, y))) return false;
     return true;
 }
 
@@ -74,8 +69,7 @@ constexpr int side = 4, patterns = 1 << (side * side);
 tile_grid pattern(int bits) {
     tile_grid grid({side, side}, 1);
     for (int i = 0; i < side * side; ++i)
-        if ((bits >> i & 1) != 0)
-            grid.mark({i % side, i / side, i % side + 1, i / side + 1});
+        if ((bits >> i & 1) != 0) grid.mark({i % side, i / side, i % side + 1, i / side + 1});
     return grid;
 }
 
@@ -84,16 +78,13 @@ std::vector<int> fewest_rectangles() {
     std::vector<int> fewest(static_cast<std::size_t>(patterns));
     for (int bits = 1; bits < patterns; ++bits) {
         int first = 0, best = side * side;
-        while ((bits >> first & 1) == 0)
-            ++first;
+        while ((bits >> first & 1) == 0) ++first;
         for (int y1 = first / side + 1; y1 <= side; ++y1)
             for (int x1 = first % side + 1; x1 <= side; ++x1) {
                 int rect = 0;
                 for (int y = first / side; y < y1; ++y)
-                    for (int x = first % side; x < x1; ++x)
-                        rect |= 1 << (y * side + x);
-                if ((bits & rect) == rect)
-                    best = std::min(best, 1 + fewest[static_cast<std::size_t>(bits ^ rect)]);
+                    for (int x = first % side; x < x1; ++x) rect |= 1 << (y * side + x);
+                if ((bits & rect) == rect) best = std::min(best, 1 + fewest[static_cast<std::size_t>(bits ^ rect)]);
             }
         fewest[static_cast<std::size_t>(bits)] = best;
     }
@@ -128,10 +119,8 @@ TEST_CASE("how many rectangles: by equal runs, by the reference engine's greed, 
         const tile_grid grid = pattern(bits);
         const int runs = static_cast<int>(merged(grid).size()), greed = static_cast<int>(merged_greedily(grid).size()),
                   best = fewest[static_cast<std::size_t>(bits)];
-        for (const tile_rect r : merged(grid))
-            rows_by_runs += r.y1 - r.y0;
-        for (const tile_rect r : merged_greedily(grid))
-            rows_by_greed += r.y1 - r.y0;
+        for (const tile_rect r : merged(grid)) rows_by_runs += r.y1 - r.y0;
+        for (const tile_rect r : merged_greedily(grid)) rows_by_greed += r.y1 - r.y0;
         by_runs += runs;
         by_greed += greed;
         at_least += best;
@@ -172,22 +161,18 @@ TEST_CASE("grids of any size are merged exactly, also across the borders of word
         const int sparseness = roll(1, 12);
         for (int y = 0; y < grid.rows(); ++y)
             for (int x = 0; x < grid.columns(); ++x)
-                if (!roll.one_in(sparseness))
-                    grid.mark(grid.texels_of({x, y, x + 1, y + 1}));
-        for (int holes = roll(0, 1); holes > 0; --holes)
-            grid.clear();
+                if (!roll.one_in(sparseness)) grid.mark(grid.texels_of({x, y, x + 1, y + 1}));
+        for (int holes = roll(0, 1); holes > 0; --holes) grid.clear();
         const rects found = merged(grid);
         CHECK(cover_exactly(grid, found));
         CHECK(cover_exactly(grid, merged_greedily(grid)));
         CHECK(in_order(found));
         CHECK(whole_runs(grid, found));
-        if (found.size() < 500)
-            CHECK(none_joinable(found));
+        if (found.size() < 500) CHECK(none_joinable(found));
 
         std::size_t n = 0;
         int wrong = 0;
-        for_each_region(grid,
-                        [&](gnomon::texel_rect r) { wrong += r != grid.texels_of(found[n++]) || r != clip(r, grid.size()); });
+        for_each_region(grid, [&](gnomon::texel_rect r) { wrong += r != grid.texels_of(found[n++]) || r != clip(r, grid.size()); });
         CHECK(n == found.size());
         CHECK(wrong == 0);
     }
@@ -206,8 +191,7 @@ TEST_CASE("shapes in a few words: nothing, everything, a cross, a checkerboard")
     CHECK(merged_greedily(grid) == rects{{0, 0, 96, 96}});
     grid.clear();
     for (int y = 0; y < 96; ++y)
-        for (int x = y % 2; x < 96; x += 2)
-            grid.mark({x, y, x + 1, y + 1});
+        for (int x = y % 2; x < 96; x += 2) grid.mark({x, y, x + 1, y + 1});
     CHECK(merged(grid).size() == 96 * 96 / 2);
     CHECK(merged_greedily(grid).size() == 96 * 96 / 2);
 }

@@ -18,7 +18,7 @@ using test::dice;
 constexpr int lowest = std::numeric_limits<int>::min(), highest = std::numeric_limits<int>::max();
 
 class oracle {
-public:
+  public:
     oracle(extent size, int tile)
         : size_{size.width > 0 ? size.width : 0, size.height > 0 ? size.height : 0}, tile_(tile),
           columns((size_.width + tile - 1) / tile), rows((size_.height + tile - 1) / tile),
@@ -29,8 +29,7 @@ public:
     int guard() const { return guard_; }
 
     void mark(texel_rect r, std::int64_t guard) {
-        if (guard < 0)
-            guard = 0;
+        if (guard < 0) guard = 0;
         bool hit = false;
         for_each_texel_of(r, guard, [&](int x, int y) {
             set_[index(x / tile_, y / tile_)] = true;
@@ -39,8 +38,7 @@ public:
                                         : texel_rect{x, y, x + 1, y + 1};
             hit = true;
         });
-        if (hit && guard < guard_)
-            guard_ = static_cast<int>(guard);
+        if (hit && guard < guard_) guard_ = static_cast<int>(guard);
     }
     bool touches(texel_rect r) const {
         bool found = false;
@@ -52,16 +50,13 @@ public:
         bool any = false;
         for (int row = 0; row < rows; ++row)
             for (int column = 0; column < columns; ++column) {
-                if (!before[index(column, row)])
-                    continue;
+                if (!before[index(column, row)]) continue;
                 any = true;
                 for (int y = row - tiles; y <= row + tiles; ++y)
                     for (int x = column - tiles; x <= column + tiles; ++x)
-                        if (x >= 0 && y >= 0 && x < columns && y < rows)
-                            set_[index(x, y)] = true;
+                        if (x >= 0 && y >= 0 && x < columns && y < rows) set_[index(x, y)] = true;
             }
-        if (!any)
-            return;
+        if (!any) return;
         const int texels = tiles * tile_;
         box_ = {box_.x0 > texels ? box_.x0 - texels : 0, box_.y0 > texels ? box_.y0 - texels : 0,
                 box_.x1 + texels < size_.width ? box_.x1 + texels : size_.width,
@@ -69,26 +64,23 @@ public:
         guard_ += texels;
     }
 
-private:
+  private:
     std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * columns + column); }
-    template <typename F>
-    void for_each_texel_of(texel_rect r, std::int64_t guard, F&& f) const {
-        if (r.x0 >= r.x1 || r.y0 >= r.y1)
-            return;
+    template <typename F> void for_each_texel_of(texel_rect r, std::int64_t guard, F&& f) const {
+        if (r.x0 >= r.x1 || r.y0 >= r.y1) return;
         for (int y = 0; y < size_.height; ++y)
             if (y >= r.y0 - guard && y < r.y1 + guard)
                 for (int x = 0; x < size_.width; ++x)
-                    if (x >= r.x0 - guard && x < r.x1 + guard)
-                        f(x, y);
+                    if (x >= r.x0 - guard && x < r.x1 + guard) f(x, y);
     }
 
     extent size_;
     int tile_;
 
-public:
+  public:
     int columns, rows;
 
-private:
+  private:
     std::vector<bool> set_;
     texel_rect box_{};
     int guard_ = highest;
@@ -97,8 +89,7 @@ private:
 /// Differences in anything that a grid tells about itself.
 int differences(const tile_grid& grid, const oracle& truth) {
     int wrong = (grid.columns() != truth.columns) + (grid.rows() != truth.rows);
-    if (wrong != 0)
-        return wrong;
+    if (wrong != 0) return wrong;
     int set = 0;
     for (int y = 0; y < truth.rows; ++y) {
         bool occupied = false;
@@ -139,8 +130,7 @@ TEST_CASE("a tile is set if and only if a marked rectangle, grown by its guard b
                 truth.dilate(tiles);
             } else {
                 texel_rect r = roll.rect(grid.size(), 20);
-                if (roll.one_in(2))
-                    r = {r.x0, r.y0, r.x0 + roll(1, 4), r.y0 + roll(1, 4)}; // small ones leave tiles unset
+                if (roll.one_in(2)) r = {r.x0, r.y0, r.x0 + roll(1, 4), r.y0 + roll(1, 4)}; // small ones leave tiles unset
                 const int guard = roll(-2, 9);
                 const tile_rect marked = grid.mark(r, guard);
                 truth.mark(r, guard);
@@ -161,8 +151,7 @@ TEST_CASE("a tile is set if and only if a marked rectangle, grown by its guard b
 
 TEST_CASE("no rectangle and no guard band is too large, too far out, or too inverted") {
     constexpr int sides[] = {lowest, lowest + 1, -1000, -1, 0, 1, 17, 41, 42, 1000, highest - 1, highest};
-    constexpr texel_rect rows[] = {{0, lowest, 0, highest},    {0, 5, 0, 6},
-                                   {0, highest, 0, lowest},    {0, highest - 1, 0, highest},
+    constexpr texel_rect rows[] = {{0, lowest, 0, highest},    {0, 5, 0, 6}, {0, highest, 0, lowest}, {0, highest - 1, 0, highest},
                                    {0, lowest, 0, lowest + 1}, {0, 3, 0, 3}};
     constexpr extent size{42, 18};
     tile_grid grid(size, 5);
@@ -208,8 +197,7 @@ TEST_CASE("texels_of covers exactly the texels that integer division gives to th
                         const auto first = [tile](int t) { return t * tile; };
                         const auto last = [tile](int t, int texels) {
                             int end = 0;
-                            while (end < texels && end / tile < t)
-                                ++end;
+                            while (end < texels && end / tile < t) ++end;
                             return end;
                         };
                         wrong += r != texel_rect{first(x0), first(y0), last(x1, grid.size().width), last(y1, grid.size().height)};
@@ -246,8 +234,7 @@ TEST_CASE("dilating holds at least what marking with a wider guard band would ha
         dilated.dilate(tiles);
         int missing = 0;
         for (int y = 0; y < wider.rows(); ++y)
-            for (int x = 0; x < wider.columns(); ++x)
-                missing += wider.test(x, y) && !dilated.test(x, y);
+            for (int x = 0; x < wider.columns(); ++x) missing += wider.test(x, y) && !dilated.test(x, y);
         CHECK(missing == 0);
         CHECK(dilated.bounds() == wider.bounds());
         CHECK(dilated.guard() == wider.guard());
@@ -256,8 +243,7 @@ TEST_CASE("dilating holds at least what marking with a wider guard band would ha
 
 TEST_CASE("dilating by any number of tiles ends, and without marks does nothing") {
     tile_grid grid({100, 50}, 10);
-    for (const int tiles : {lowest, -1, 0, 1, highest})
-        grid.dilate(tiles);
+    for (const int tiles : {lowest, -1, 0, 1, highest}) grid.dilate(tiles);
     CHECK(grid.empty());
     CHECK(grid.guard() == highest);
     grid.mark({50, 20, 51, 21}, 1);
@@ -273,8 +259,7 @@ TEST_CASE("a cleared grid is a new one") {
     dice roll(23);
     for (const shape& s : shapes) {
         tile_grid grid(s.size, s.tile);
-        for (int i = 0; i < 20; ++i)
-            grid.mark(roll.rect(grid.size(), 5), roll(0, 4));
+        for (int i = 0; i < 20; ++i) grid.mark(roll.rect(grid.size(), 5), roll(0, 4));
         grid.dilate(roll(0, 2));
         grid.clear();
         CHECK(differences(grid, oracle(s.size, s.tile)) == 0);

@@ -25,7 +25,9 @@ template <typename Texel> void try_pair(typename Texel::storage e, typename Texe
     wrong.unless(test::is_nearest_depth(s, Texel::channel_type::code(e), Texel::channel_type::code(m)), "e", e, "m", m, "s", s);
 }
 
-void try_code_pair(int e, int m, sweep& wrong) { try_pair<rg16>(static_cast<std::uint16_t>(e), static_cast<std::uint16_t>(m), wrong); }
+void try_code_pair(int e, int m, sweep& wrong) {
+    try_pair<rg16>(static_cast<std::uint16_t>(e), static_cast<std::uint16_t>(m), wrong);
+}
 
 static_assert(test::same_bits(caster_depth(rg8::clear()), 1.0f) && test::same_bits(caster_depth(rg8{{1, 3}}), 0x1.555556p-1f));
 
@@ -101,17 +103,24 @@ TEST_CASE("caster_depth is correctly rounded where 1 - e/m is as near to a tie o
     CHECK(ties > 0); // else this test says nothing that the one before did not
 }
 
-TEST_CASE_TEMPLATE("an empty negative or NaN mask is at the far plane and no pair leaves 0 to 1", Texel, rg16f, rg32f, test::paper16f, test::paper32f) {
+TEST_CASE_TEMPLATE("an empty negative or NaN mask is at the far plane and no pair leaves 0 to 1", Texel, rg16f, rg32f,
+                   test::paper16f, test::paper32f) {
     using channel_type = typename Texel::channel_type;
     for (const double m : {0.0, -0.0, -1.0, test::nan<double>})
-        for (const double e : {0.0, 0.5, 1.0, test::nan<double>}) CHECK(test::same_bits(caster_depth(Texel{{channel_type::store(e), channel_type::store(m)}}), 1.0f));
-    CHECK(test::same_bits(caster_depth(Texel{{channel_type::store(std::is_same_v<typename Texel::representation_type, depth_mask> ? 0.75 : 0.25), channel_type::store(0.5)}}), 0.0f));
+        for (const double e : {0.0, 0.5, 1.0, test::nan<double>})
+            CHECK(test::same_bits(caster_depth(Texel{{channel_type::store(e), channel_type::store(m)}}), 1.0f));
+    CHECK(test::same_bits(
+        caster_depth(Texel{{channel_type::store(std::is_same_v<typename Texel::representation_type, depth_mask> ? 0.75 : 0.25),
+                            channel_type::store(0.5)}}),
+        0.0f));
 }
 
-TEST_CASE_TEMPLATE("a unorm pair is within (2-s)/(2M) of the depth that was filtered and nearly that far away", Texel, rg8, rg16, test::paper8, test::paper16) {
+TEST_CASE_TEMPLATE("a unorm pair is within (2-s)/(2M) of the depth that was filtered and nearly that far away", Texel, rg8, rg16,
+                   test::paper8, test::paper16) {
     sweep wrong;
     double worst = 0.0;
-    for (int code = 0; code <= static_cast<int>(Texel::channel_type::scale); code += Texel::channel_type::scale > 255.0f ? 521 : 1) {
+    for (int code = 0; code <= static_cast<int>(Texel::channel_type::scale);
+         code += Texel::channel_type::scale > 255.0f ? 521 : 1) {
         const double s = 1.0 - code / static_cast<double>(Texel::channel_type::scale);
         const Texel caster = Texel::caster(static_cast<float>(s));
         for (const int taps : {9, 25, 81, 289, 1089})

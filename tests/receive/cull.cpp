@@ -23,8 +23,7 @@ struct caster {
     float depth;
 };
 
-template <typename Texel>
-struct scene {
+template <typename Texel> struct scene {
     static constexpr extent size{60, 44};
     std::vector<caster> casters;
     image<Texel> soft;
@@ -45,8 +44,7 @@ struct scene {
     float nearest_around(texel_rect r) const {
         float nearest = 2.0f;
         for (const caster& c : casters)
-            if (!intersection(grow(c.where, blur::radius), grow(r, 1)).empty() && c.depth < nearest)
-                nearest = c.depth;
+            if (!intersection(grow(c.where, blur::radius), grow(r, 1)).empty() && c.depth < nearest) nearest = c.depth;
         return nearest;
     }
     /// Does a receiver at depth `z` find shadow at any texel of `r`, or between texels?
@@ -81,7 +79,8 @@ TEST_CASE_TEMPLATE("a receiver that is culled is lit at every texel and between 
             const bool at_any_depth = s.shadowed(footprint, 2.0f, exact);
             lost += (truly && !reached) || (at_any_depth && !near_tiles) ||
                     (at_any_depth && !gnomon::casters_reach(s.tiles, footprint)) || (reached && !near_tiles);
-            for (const gnomon::bias b : {gnomon::unbiased, gnomon::towards_shadow}) // may shadow before the caster: any depth counts
+            for (const gnomon::bias b :
+                 {gnomon::unbiased, gnomon::towards_shadow}) // may shadow before the caster: any depth counts
                 lost += s.shadowed(footprint, z, gnomon::rule{.caster = b}) &&
                         !gnomon::casters_reach(s.tiles, footprint, {nearer, z}, b.towards);
             culled += !reached;

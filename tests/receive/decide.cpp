@@ -31,7 +31,8 @@ bool shadowed_exactly(int depth_code, int mask_code, int k, float z) {
     const auto bits = std::bit_cast<std::uint32_t>(z);
     const bool normal = bits >> 23 != 0;
     const std::int64_t significand = (bits & 0x7FFFFF) | (normal ? 0x800000u : 0u);
-    return mask_code > 0 && z > 0.0f && exceeds(m * significand, 150 - static_cast<int>(normal ? bits >> 23 : 1), m - e); // m z > m - e
+    return mask_code > 0 && z > 0.0f &&
+           exceeds(m * significand, 150 - static_cast<int>(normal ? bits >> 23 : 1), m - e); // m z > m - e
 }
 
 struct tried_rule {
@@ -42,8 +43,8 @@ tried_rule rule_with(bias_towards towards, int roundings) {
     const int sign = towards == bias_towards::light ? 1 : (towards == bias_towards::shadow ? -1 : 0);
     return {{.caster = {.towards = towards, .roundings = roundings, .caster_is_code = true}}, sign * roundings};
 }
-const std::array every_rule{rule_with(bias_towards::none, 1), rule_with(bias_towards::light, 1), rule_with(bias_towards::light, 2), rule_with(bias_towards::shadow, 1),
-                            rule_with(bias_towards::shadow, 2)};
+const std::array every_rule{rule_with(bias_towards::none, 1), rule_with(bias_towards::light, 1), rule_with(bias_towards::light, 2),
+                            rule_with(bias_towards::shadow, 1), rule_with(bias_towards::shadow, 2)};
 
 /// The three floats around the exact threshold of a stored pair, and some that are far from it.
 template <typename Texel> void try_pair(int e, int m, const tried_rule& tried, sweep& wrong) {
@@ -55,7 +56,8 @@ template <typename Texel> void try_pair(int e, int m, const tried_rule& tried, s
     const float full = Texel::channel_type::decode(static_cast<storage>(m));
     for (const float z : {test::down(at), at, test::up(at), in_range ? 1.0f : test::smallest<float>}) {
         const bool expected = shadowed_exactly(e, m, tried.k, z);
-        wrong.unless(test::same_bits(shadow(texel, z, tried.decision), expected ? full : 0.0f), "E", e, "M", m, "k", tried.k, "z", z);
+        wrong.unless(test::same_bits(shadow(texel, z, tried.decision), expected ? full : 0.0f), "E", e, "M", m, "k", tried.k, "z",
+                     z);
     }
 }
 
@@ -105,21 +107,23 @@ TEST_CASE_TEMPLATE("an unbiased decision on floats is exact from subnormals to o
     for (int i = 0; i < 400'000; ++i) {
         auto m = channel_type::encode(static_cast<double>(dice.any_unit()));
         auto e = channel_type::encode(static_cast<double>(i % 3 == 0 ? dice.any_unit() : channel_type::decode(m) * dice.unit()));
-        if (i % 5 == 0) e = channel_type::encode(static_cast<double>(test::down(channel_type::decode(m)))); // a caster at the near plane
+        if (i % 5 == 0)
+            e = channel_type::encode(static_cast<double>(test::down(channel_type::decode(m)))); // a caster at the near plane
         if (e > m) std::swap(e, m);
         const Texel texel{{e, m}};
         const double depth = static_cast<double>(channel_type::decode(e)), mask = static_cast<double>(channel_type::decode(m));
         const float threshold = mask > 0.0 ? static_cast<float>(1.0 - depth / mask) : 0.5f;
         for (const float z : {test::down(threshold), threshold, test::up(threshold), dice.any_unit(), 1.0f + dice.unit()}) {
             const bool expected = mask > 0.0 && z > 0.0f && test::exactly_behind(depth, mask, static_cast<double>(z));
-            wrong.unless(test::same_bits(shadow(texel, z, exactly), expected ? channel_type::decode(m) : 0.0f), "e", depth, "m", mask, "z", z);
+            wrong.unless(test::same_bits(shadow(texel, z, exactly), expected ? channel_type::decode(m) : 0.0f), "e", depth, "m",
+                         mask, "z", z);
         }
     }
     CHECK(wrong.report() == "");
 }
 
-TEST_CASE_TEMPLATE("a deeper receiver is never lit if a nearer one is shadowed", Texel, rg8, rg16, rg16f, rg32f, test::paper8, test::paper16, test::paper16f,
-                   test::paper32f) {
+TEST_CASE_TEMPLATE("a deeper receiver is never lit if a nearer one is shadowed", Texel, rg8, rg16, rg16f, rg32f, test::paper8,
+                   test::paper16, test::paper16f, test::paper32f) {
     test::float_dice dice(33);
     sweep wrong;
     for (int i = 0; i < 20'000; ++i) {
@@ -129,7 +133,8 @@ TEST_CASE_TEMPLATE("a deeper receiver is never lit if a nearer one is shadowed",
             const float first = test::first_shadowed(texel, decision);
             for (int j = 0; j < 8; ++j) {
                 const float z = j < 4 ? first + dice.unit() * 0x1p-20f * static_cast<float>(j) : 2.0f * dice.unit();
-                wrong.unless((shadow(texel, z, decision) > 0.0f) == (z >= first), "depth", texel.stored[0], "mask", texel.stored[1], "first", first, "z", z);
+                wrong.unless((shadow(texel, z, decision) > 0.0f) == (z >= first), "depth", texel.stored[0], "mask", texel.stored[1],
+                             "first", first, "z", z);
             }
         }
     }

@@ -19,7 +19,8 @@ namespace {
 /// What must hold for any three floats.
 bool is_sound(float light, float shadow, float ambient) {
     const float masked = mask_light(light, shadow, ambient);
-    if (!(light > ambient)) return test::same_bits(masked, light) || (test::is_nan(light) && test::is_nan(masked)); // dark already, or NaN
+    if (!(light > ambient))
+        return test::same_bits(masked, light) || (test::is_nan(light) && test::is_nan(masked)); // dark already, or NaN
     return masked <= light && masked >= ambient;
 }
 
@@ -39,9 +40,13 @@ TEST_CASE("no shadow leaves the light and full shadow the ambient unless the lig
     for (const float light : test::hostile_floats)
         for (const float ambient : test::hostile_floats) {
             if (test::is_nan(light) || test::is_nan(ambient)) continue;
-            for (const float none : {0.0f, -0.0f, -1.0f, -test::infinity<float>, test::nan<float>}) wrong.unless(test::equal(mask_light(light, none, ambient), light), "light", light, "ambient", ambient, "no shadow", none);
+            for (const float none : {0.0f, -0.0f, -1.0f, -test::infinity<float>, test::nan<float>})
+                wrong.unless(test::equal(mask_light(light, none, ambient), light), "light", light, "ambient", ambient, "no shadow",
+                             none);
             for (const float full : {1.0f, 2.0f, test::infinity<float>})
-                if (light < test::infinity<float> && ambient > -test::infinity<float>) wrong.unless(test::equal(mask_light(light, full, ambient), lesser(light, ambient)), "light", light, "ambient", ambient, "shadow", full);
+                if (light < test::infinity<float> && ambient > -test::infinity<float>)
+                    wrong.unless(test::equal(mask_light(light, full, ambient), lesser(light, ambient)), "light", light, "ambient",
+                                 ambient, "shadow", full);
         }
     CHECK(wrong.report() == "");
 }
@@ -58,7 +63,8 @@ TEST_CASE("a shadow never brightens and never goes below the ambient for all 8-b
     for (int light = 0; light < 256; ++light)
         for (int shadow = 0; shadow < 256; ++shadow)
             for (int ambient = 0; ambient < 256; ++ambient) {
-                const float l = static_cast<float>(light) / 255.0f, s = static_cast<float>(shadow) / 255.0f, a = static_cast<float>(ambient) / 255.0f;
+                const float l = static_cast<float>(light) / 255.0f, s = static_cast<float>(shadow) / 255.0f,
+                            a = static_cast<float>(ambient) / 255.0f;
                 wrong.unless(is_sound(l, s, a), "light", light, "shadow", shadow, "ambient", ambient);
             }
     CHECK(wrong.report() == "");
@@ -66,7 +72,10 @@ TEST_CASE("a shadow never brightens and never goes below the ambient for all 8-b
 
 TEST_CASE("a shadow never brightens and never goes below the ambient for floats of any kind") {
     test::float_dice dice(100);
-    const auto number = [&dice] { return dice.one_in(4) ? test::hostile_floats[static_cast<std::size_t>(dice(0, 29))] : (dice.one_in(2) ? dice.any() : dice.unit()); };
+    const auto number = [&dice] {
+        return dice.one_in(4) ? test::hostile_floats[static_cast<std::size_t>(dice(0, 29))]
+                              : (dice.one_in(2) ? dice.any() : dice.unit());
+    };
     sweep wrong;
     for (int i = 0; i < 2'000'000; ++i) {
         const float light = number(), shadow = number(), ambient = number();
@@ -85,7 +94,8 @@ TEST_CASE("mask_light is within 1 ulp of its formula also where a deep shadow le
         const double expected = formula(light, shadow, ambient);
         const float masked = mask_light(light, shadow, ambient), nearest = static_cast<float>(expected);
         const double ulp = static_cast<double>(test::up(nearest)) - static_cast<double>(nearest);
-        wrong.unless(std::abs(static_cast<double>(masked) - expected) <= ulp, "light", light, "shadow", shadow, "ambient", ambient, "gives", masked, "formula", expected);
+        wrong.unless(std::abs(static_cast<double>(masked) - expected) <= ulp, "light", light, "shadow", shadow, "ambient", ambient,
+                     "gives", masked, "formula", expected);
     }
     CHECK(wrong.report() == "");
 }
@@ -94,7 +104,8 @@ TEST_CASE("a row of lights may be masked in place and the shortest span counts")
     const std::vector<float> light{1.0f, 0.75f, 0.5f, 0.25f, 0.125f}, shadow{0.0f, 0.5f, 1.0f, 1.0f};
     std::vector<float> masked = light;
     mask_light(masked, shadow, 0.25f, masked);
-    for (std::size_t i = 0; i < 5; ++i) CHECK(test::same_bits(masked[i], i < 4 ? mask_light(light[i], shadow[i], 0.25f) : light[i]));
+    for (std::size_t i = 0; i < 5; ++i)
+        CHECK(test::same_bits(masked[i], i < 4 ? mask_light(light[i], shadow[i], 0.25f) : light[i]));
     std::vector<float> two(2);
     mask_light(light, shadow, 0.25f, two);
     CHECK(test::same_bits(two[1], 0.5f));

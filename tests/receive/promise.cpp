@@ -41,7 +41,8 @@ TEST_CASE_TEMPLATE("towards light: no receiver at or before its caster is shadow
     CHECK(wrong.report() == "");
 }
 
-TEST_CASE_TEMPLATE("towards light: two roundings ask for two and then nothing at or before its caster is shadowed", Texel, EVERY_PLAIN_TEXEL) {
+TEST_CASE_TEMPLATE("towards light: two roundings ask for two and then nothing at or before its caster is shadowed", Texel,
+                   EVERY_PLAIN_TEXEL) {
     bias twice = towards_light;
     twice.roundings = 2;
     sweep wrong;
@@ -65,7 +66,8 @@ TEST_CASE_TEMPLATE("towards shadow: every receiver behind its caster is shadowed
     CHECK(wrong.report() == "");
 }
 
-TEST_CASE_TEMPLATE("towards light: every receiver behind the band that bias.hpp words is shadowed and no band is twice too wide", Texel, rg8, rg16, rg16f, rg32f) {
+TEST_CASE_TEMPLATE("towards light: every receiver behind the band that bias.hpp words is shadowed and no band is twice too wide",
+                   Texel, rg8, rg16, rg16f, rg32f) {
     using channel_type = typename Texel::channel_type;
     constexpr bool half = std::is_same_v<channel_type, half16>;
     constexpr double q = 2.0 * static_cast<double>(channel_type::max_error);
@@ -84,7 +86,8 @@ TEST_CASE_TEMPLATE("towards light: every receiver behind the band that bias.hpp 
     CHECK(worst > 0.5);
 }
 
-TEST_CASE_TEMPLATE("towards light: every receiver behind the stated band is shadowed and the band is nearly needed", Texel, EVERY_PLAIN_TEXEL) {
+TEST_CASE_TEMPLATE("towards light: every receiver behind the stated band is shadowed and the band is nearly needed", Texel,
+                   EVERY_PLAIN_TEXEL) {
     constexpr bool paper = std::is_same_v<typename Texel::representation_type, paper_depth_mask>;
     sweep wrong;
     double worst = 0.0;
@@ -92,7 +95,8 @@ TEST_CASE_TEMPLATE("towards light: every receiver behind the stated band is shad
         const double first = static_cast<double>(test::first_shadowed(texel, rule{})), depth = static_cast<double>(s);
         const double bound = test::end_of_doubt<Texel>(depth, covered * 1.0 / taps);
         const double next_float = paper ? 0x1p-22 : 0x1p-23 * bound; // the paper's own arithmetic is single precision around 1
-        wrong.unless(first <= bound + next_float, "s", s, "covered", covered, "of", taps, "first shadowed", first, "bound", bound, "share", (first - depth) / (bound - depth));
+        wrong.unless(first <= bound + next_float, "s", s, "covered", covered, "of", taps, "first shadowed", first, "bound", bound,
+                     "share", (first - depth) / (bound - depth));
         worst = std::max(worst, (first - depth) / (bound + next_float - depth));
     });
     CHECK(wrong.report() == "");

@@ -32,7 +32,9 @@ template <typename Texel> struct receiver {
 template <typename Texel> std::vector<receiver<Texel>> some_receivers(int count) {
     test::float_dice dice(90);
     std::vector<receiver<Texel>> made;
-    for (int i = 0; i < count; ++i) made.push_back({dice.one_in(4) ? dice.any() : dice.unit(), dice.one_in(4) ? Texel::clear() : test::any_caster<Texel>(dice), untouched});
+    for (int i = 0; i < count; ++i)
+        made.push_back({dice.one_in(4) ? dice.any() : dice.unit(), dice.one_in(4) ? Texel::clear() : test::any_caster<Texel>(dice),
+                        untouched});
     return made;
 }
 
@@ -41,19 +43,22 @@ static_assert(!texel_row<std::vector<float>> && !texel_row<std::vector<unorm8>>)
 
 } // namespace
 
-TEST_CASE_TEMPLATE("a row of receivers equals each receiver alone and the shortest span counts", Texel, rg8, rg16f, rgba16, rgba32f, test::paper8) {
+TEST_CASE_TEMPLATE("a row of receivers equals each receiver alone and the shortest span counts", Texel, rg8, rg16f, rgba16, rgba32f,
+                   test::paper8) {
     sweep wrong;
     for (const int texels : {0, 1, 5, 64})
         for (const int depths : {0, 1, 7, 64})
             for (const int results : {0, 1, 6, 64}) {
                 auto row = some_receivers<Texel>(64);
                 constexpr auto stride = static_cast<std::ptrdiff_t>(sizeof(receiver<Texel>));
-                receive(strided_span<const Texel>(&row[0].texel, texels, stride), strided_span<const float>(&row[0].z, depths, stride),
+                receive(strided_span<const Texel>(&row[0].texel, texels, stride),
+                        strided_span<const float>(&row[0].z, depths, stride),
                         strided_span<float>(&row[0].intensity, results, stride), decision);
                 const int count = lesser(texels, lesser(depths, results));
                 for (int i = 0; i < 64; ++i) {
                     const auto& r = row[static_cast<std::size_t>(i)];
-                    wrong.unless(test::same_bits(r.intensity, i < count ? shadow(r.texel, r.z, decision) : untouched), "spans", texels, depths, results, "at", i);
+                    wrong.unless(test::same_bits(r.intensity, i < count ? shadow(r.texel, r.z, decision) : untouched), "spans",
+                                 texels, depths, results, "at", i);
                 }
             }
     CHECK(wrong.report() == "");
@@ -96,7 +101,8 @@ TEST_CASE_TEMPLATE("of three images the texels that all have are received", Texe
     CHECK(wrong.report() == "");
 }
 
-TEST_CASE_TEMPLATE("receivers anywhere equal a sample and a decision and off the map they are lit", Texel, rg8, rgba16f, test::paper8) {
+TEST_CASE_TEMPLATE("receivers anywhere equal a sample and a decision and off the map they are lit", Texel, rg8, rgba16f,
+                   test::paper8) {
     test::float_dice dice(93);
     const image<Texel> map = test::noise<Texel>(dice, {7, 6}, 2);
     std::vector<float> x, y, z;

@@ -8,8 +8,12 @@
 
 namespace test {
 
-[[nodiscard]] constexpr bool same_bits(float a, float b) noexcept { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
-[[nodiscard]] constexpr bool same_bits(double a, double b) noexcept { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+[[nodiscard]] constexpr bool same_bits(float a, float b) noexcept {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+[[nodiscard]] constexpr bool same_bits(double a, double b) noexcept {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
 
 /// Equal as numbers: 0 is -0, NaN is nothing.
 template <typename Real> [[nodiscard]] constexpr bool equal(Real a, Real b) noexcept { return a <= b && a >= b; }
@@ -37,10 +41,35 @@ template <typename Real> inline constexpr Real nan = std::numeric_limits<Real>::
 template <typename Real> inline constexpr Real smallest = std::numeric_limits<Real>::denorm_min();
 
 /// Both signs of what breaks code: zero, subnormal, the edge of normal, around 1/2 and 1, beyond, the largest, infinity, NaN.
-inline constexpr std::array<float, 30> hostile_floats{
-    0.0f,          -0.0f,         smallest<float>, -smallest<float>, 0x1p-127f,   -0x1p-127f,       0x1p-126f,        -0x1p-126f,
-    0x1p-100f,     0x1p-25f,      0.25f,           0x1.fffffep-2f,   0.5f,        0x1.000002p-1f,   0.75f,            0x1.fffffep-1f,
-    1.0f,          -1.0f,         0x1.000002p0f,   2.0f,             -2.0f,       65504.0f,         65536.0f,         0x1p31f,
-    -0x1p31f,      0x1.fffffep127f, -0x1.fffffep127f, infinity<float>, -infinity<float>, nan<float>};
+inline constexpr std::array<float, 30> hostile_floats{0.0f,
+                                                      -0.0f,
+                                                      smallest<float>,
+                                                      -smallest<float>,
+                                                      0x1p-127f,
+                                                      -0x1p-127f,
+                                                      0x1p-126f,
+                                                      -0x1p-126f,
+                                                      0x1p-100f,
+                                                      0x1p-25f,
+                                                      0.25f,
+                                                      0x1.fffffep-2f,
+                                                      0.5f,
+                                                      0x1.000002p-1f,
+                                                      0.75f,
+                                                      0x1.fffffep-1f,
+                                                      1.0f,
+                                                      -1.0f,
+                                                      0x1.000002p0f,
+                                                      2.0f,
+                                                      -2.0f,
+                                                      65504.0f,
+                                                      65536.0f,
+                                                      0x1p31f,
+                                                      -0x1p31f,
+                                                      0x1.fffffep127f,
+                                                      -0x1.fffffep127f,
+                                                      infinity<float>,
+                                                      -infinity<float>,
+                                                      nan<float>};
 
 } // namespace test

@@ -70,13 +70,15 @@ class exact_sum {
 };
 
 /// Is e > m (1-z), exactly?
-[[nodiscard]] inline bool exactly_behind(double e, double m, double z) { return exact_sum{}.add(e).add(-m).add_product(m, z).sign() > 0; }
+[[nodiscard]] inline bool exactly_behind(double e, double m, double z) {
+    return exact_sum{}.add(e).add(-m).add_product(m, z).sign() > 0;
+}
 
 /// Is `f` the float nearest to (m - e) / m, ties to even? By the midpoints to both neighbours: no division.
 /// \pre m > 0 and 0 <= e <= m
 [[nodiscard]] inline bool is_nearest_depth(float f, float e, float m) {
     const double own = static_cast<double>(f), depth = static_cast<double>(e), mask = static_cast<double>(m);
-    const auto side = [&](float neighbour) { // of (own + neighbour)/2 against the quotient
+    const auto side = [&](float neighbour) {                                // of (own + neighbour)/2 against the quotient
         const double middle = (own + static_cast<double>(neighbour)) / 2.0; // 25 bits: exact
         return exact_sum{}.add_product(middle, mask).add(-mask).add(depth).sign();
     };

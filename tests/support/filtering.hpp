@@ -9,12 +9,10 @@
 namespace test {
 
 /// The whole of an image filtered by the library. The result's memory and the scratch begin as rubbish.
-template <gnomon::kernel Kernel, gnomon::texel_format Texel>
-gnomon::image<Texel> dense(const gnomon::image<Texel>& from) {
+template <gnomon::kernel Kernel, gnomon::texel_format Texel> gnomon::image<Texel> dense(const gnomon::image<Texel>& from) {
     gnomon::image<Texel> to(from.size(), Texel::caster(0.25f));
     gnomon::filter_scratch<Texel, Kernel> scratch(from.size().width);
-    for (auto& element : scratch.line())
-        std::memset(&element, 0xFF, sizeof element); // for floats, NaN
+    for (auto& element : scratch.line()) std::memset(&element, 0xFF, sizeof element); // for floats, NaN
     gnomon::filter_region(from.view(), to.view(), whole(from.size()), scratch);
     return to;
 }

@@ -7,7 +7,8 @@
 
 namespace test {
 
-template <gnomon::channel Channel, gnomon::effects Effects = gnomon::effects{}> using paper = gnomon::texel<Channel, gnomon::paper_depth_mask, Effects>;
+template <gnomon::channel Channel, gnomon::effects Effects = gnomon::effects{}>
+using paper = gnomon::texel<Channel, gnomon::paper_depth_mask, Effects>;
 
 inline constexpr gnomon::effects bounded{.far_bound = true};
 inline constexpr gnomon::effects translucent{.translucency = true};

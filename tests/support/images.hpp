@@ -52,8 +52,10 @@ template <gnomon::texel_format Texel> std::uint64_t hash(const gnomon::image<Tex
     for_each_texel(gnomon::whole(image.size()), [&](int x, int y) {
         for (const auto stored : image(x, y).stored) {
             std::uint32_t bits = 0;
-            if constexpr (sizeof stored == 4) bits = std::bit_cast<std::uint32_t>(stored);
-            else bits = stored;
+            if constexpr (sizeof stored == 4)
+                bits = std::bit_cast<std::uint32_t>(stored);
+            else
+                bits = stored;
             for (int byte = 0; byte < 4; ++byte) h = (h ^ (bits >> (8 * byte) & 0xFFu)) * 0x100000001B3u;
         }
     });

@@ -16,24 +16,20 @@ struct taps {
 
     int at(int i) const { return weights[static_cast<std::size_t>(radius + i)]; }
 };
-template <gnomon::kernel K>
-taps taps_of() {
+template <gnomon::kernel K> taps taps_of() {
     static_assert(gnomon::kernel_is_sound<K>());
     return {K::radius, K::total, {K::weights.begin(), K::weights.end()}};
 }
 
-template <gnomon::kernel... Kernels>
-struct kernels {};
+template <gnomon::kernel... Kernels> struct kernels {};
 
 /// Calls f.template operator()<Kernel>() for each.
-template <typename F, gnomon::kernel... Kernels>
-void for_each_kernel(kernels<Kernels...>, F&& f) {
+template <typename F, gnomon::kernel... Kernels> void for_each_kernel(kernels<Kernels...>, F&& f) {
     (f.template operator()<Kernels>(), ...);
 }
 
 /// All four shapes at these radii.
-template <typename F, int... Radii>
-void for_each_shape(std::integer_sequence<int, Radii...>, F&& f) {
+template <typename F, int... Radii> void for_each_shape(std::integer_sequence<int, Radii...>, F&& f) {
     for_each_kernel(
         kernels<gnomon::box<Radii>..., gnomon::tent<Radii>..., gnomon::binomial<Radii>..., gnomon::gaussian<Radii>...>{}, f);
 }

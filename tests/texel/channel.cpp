@@ -77,7 +77,9 @@ template <typename Storage> bool same(Storage a, Storage b) {
         return a == b;
 }
 
-template <channel Channel> double error_at(double v) { return std::abs(static_cast<double>(Channel::decode(Channel::encode(v))) - v); }
+template <channel Channel> double error_at(double v) {
+    return std::abs(static_cast<double>(Channel::decode(Channel::encode(v))) - v);
+}
 
 /// Where the error of a channel is largest: half way between two stored values, and one double before.
 template <channel Channel> std::vector<double> worst_values() {
@@ -119,7 +121,8 @@ TEST_CASE_TEMPLATE("decode gives the float nearest to code / scale for every cod
     sweep wrong;
     for (const auto stored : all_stored<Channel>()) { // code / scale = (m - e) / m with m = scale, e = scale - code
         const float code = Channel::code(stored), value = Channel::decode(stored);
-        const bool nearest = Channel::whole_codes ? test::is_nearest_depth(value, Channel::scale - code, Channel::scale) : test::same_bits(value, code);
+        const bool nearest = Channel::whole_codes ? test::is_nearest_depth(value, Channel::scale - code, Channel::scale)
+                                                  : test::same_bits(value, code);
         wrong.unless(nearest, "stored", stored, "decoded", value);
     }
     CHECK(wrong.report() == "");
@@ -127,11 +130,14 @@ TEST_CASE_TEMPLATE("decode gives the float nearest to code / scale for every cod
     CHECK(test::same_bits(Channel::decode(Channel::encode(1.0)), 1.0f));
 }
 
-TEST_CASE_TEMPLATE("unorm encode gives the nearest code for every float beside a tie and ties go up", Channel, gnomon::unorm8, gnomon::unorm16) {
+TEST_CASE_TEMPLATE("unorm encode gives the nearest code for every float beside a tie and ties go up", Channel, gnomon::unorm8,
+                   gnomon::unorm16) {
     const auto nearest = [](float v) { // by counting: the codes c with 2c - 1 <= 2 N v
         const double scale = static_cast<double>(Channel::scale), value = static_cast<double>(v);
         int code = static_cast<int>(scale * value) - 2; // a start below the answer
-        while (code < static_cast<int>(scale) && test::exact_sum{}.add_product(2.0 * scale, value).add(-2.0 * code - 1.0).sign() >= 0) ++code;
+        while (code < static_cast<int>(scale) &&
+               test::exact_sum{}.add_product(2.0 * scale, value).add(-2.0 * code - 1.0).sign() >= 0)
+            ++code;
         return gnomon::greater(code, 0);
     };
     sweep wrong;
@@ -160,7 +166,8 @@ TEST_CASE("float32 encode rounds every midpoint to even and a double beside it t
 TEST_CASE_TEMPLATE("encode never falls when its argument rises", Channel, ALL_CHANNELS) {
     test::float_dice dice(3);
     std::vector<double> values = worst_values<Channel>();
-    for (int i = 0; i < 200'000; ++i) values.push_back(static_cast<double>(dice.any_unit()) + static_cast<double>(dice.unit()) * 0x1p-20);
+    for (int i = 0; i < 200'000; ++i)
+        values.push_back(static_cast<double>(dice.any_unit()) + static_cast<double>(dice.unit()) * 0x1p-20);
     std::sort(values.begin(), values.end());
     sweep wrong;
     for (std::size_t i = 1; i < values.size(); ++i)
@@ -170,7 +177,8 @@ TEST_CASE_TEMPLATE("encode never falls when its argument rises", Channel, ALL_CH
 
 TEST_CASE_TEMPLATE("encode takes NaN to 0 and what lies outside of 0 to 1 to the nearer end", Channel, ALL_CHANNELS) {
     const auto zero = typename Channel::storage{}, one = Channel::encode(1.0);
-    for (const double low : {test::nan<double>, -test::nan<double>, -test::infinity<double>, -1e300, -1.0, -test::smallest<double>, -0.0})
+    for (const double low :
+         {test::nan<double>, -test::nan<double>, -test::infinity<double>, -1e300, -1.0, -test::smallest<double>, -0.0})
         CHECK(same(Channel::encode(low), zero));
     for (const double high : {test::up(1.0), 2.0, 1e300, test::infinity<double>}) CHECK(same(Channel::encode(high), one));
     CHECK(same(Channel::encode(test::down(1.0)), one));
@@ -184,7 +192,8 @@ TEST_CASE_TEMPLATE("a channel keeps its max_error and its rounding and nearly re
         worst = std::max(worst, error_at<Channel>(v) / static_cast<double>(Channel::max_error));
         const double exact = v * scale;
         const double rounded = static_cast<double>(Channel::code(Channel::store(exact)));
-        const double stated = static_cast<double>(Channel::rounding.relative) * exact + static_cast<double>(Channel::rounding.absolute);
+        const double stated =
+            static_cast<double>(Channel::rounding.relative) * exact + static_cast<double>(Channel::rounding.absolute);
         worst_rounding = std::max(worst_rounding, std::abs(rounded - exact) / stated);
     }
     CHECK(worst <= 1.0);

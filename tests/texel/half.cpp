@@ -38,7 +38,8 @@ TEST_CASE("every finite half has the value its definition gives") {
     sweep wrong;
     for (unsigned h = 0; h < 0x10000; ++h)
         if ((h & half_infinity) != half_infinity)
-            wrong.unless(test::same_bits(static_cast<double>(half_to_float(static_cast<std::uint16_t>(h))), defined_value(h)), "half", h);
+            wrong.unless(test::same_bits(static_cast<double>(half_to_float(static_cast<std::uint16_t>(h))), defined_value(h)),
+                         "half", h);
     CHECK(wrong.report() == "");
 }
 
@@ -59,7 +60,9 @@ TEST_CASE("half_from rounds every midpoint to even and a double beside it to the
         for (const bool negative : {false, true}) {
             const double middle = (defined_value(h) + defined_value(h + 1)) / 2.0; // 12 bits
             const auto from = [negative](double v) { return half_from(negative ? -v : v); };
-            const auto half = [negative](unsigned pattern) { return static_cast<std::uint16_t>(pattern | (negative ? half_sign : 0u)); };
+            const auto half = [negative](unsigned pattern) {
+                return static_cast<std::uint16_t>(pattern | (negative ? half_sign : 0u));
+            };
             wrong.unless(from(test::down(middle)) == half(h), "below the midpoint after", h);
             wrong.unless(from(middle) == half((h & 1) == 0 ? h : h + 1), "at the midpoint after", h);
             wrong.unless(from(test::up(middle)) == half(h + 1), "above the midpoint after", h);

@@ -18,10 +18,12 @@
 using namespace gnomon;
 using test::sweep;
 
-#define EVERY_TEXEL                                                                                                                                  \
-    rg8, rg16, rg16f, rg32f, rgb8, rgb16, rgb16f, rgb32f, rga8, rga32f, rgba8, rgba16, rgba16f, rgba32f, test::paper8, test::paper16, test::paper16f, \
-        test::paper32f, test::paper_rgba8, test::paper_rgba16, test::paper_rgba16f, test::paper_rgba32f
-#define EVERY_FULL_TEXEL rgba8, rgba16, rgba16f, rgba32f, test::paper_rgba8, test::paper_rgba16, test::paper_rgba16f, test::paper_rgba32f
+#define EVERY_TEXEL                                                                                                                \
+    rg8, rg16, rg16f, rg32f, rgb8, rgb16, rgb16f, rgb32f, rga8, rga32f, rgba8, rgba16, rgba16f, rgba32f, test::paper8,             \
+        test::paper16, test::paper16f, test::paper32f, test::paper_rgba8, test::paper_rgba16, test::paper_rgba16f,                 \
+        test::paper_rgba32f
+#define EVERY_FULL_TEXEL                                                                                                           \
+    rgba8, rgba16, rgba16f, rgba32f, test::paper_rgba8, test::paper_rgba16, test::paper_rgba16f, test::paper_rgba32f
 
 // Of the representation concept a model and two near misses. (Not in the unnamed namespace: nobody calls their members.)
 namespace representation_models {
@@ -46,8 +48,10 @@ template <typename Texel> constexpr double number(const Texel& t, int index) {
     return static_cast<double>(Texel::channel_type::decode(t.stored[index]));
 }
 
-template <typename T> concept has_opacity = requires(float v) { T::caster(v, v); };
-template <typename T> concept has_bound = requires(T t, float v) { t.bound(v); };
+template <typename T>
+concept has_opacity = requires(float v) { T::caster(v, v); };
+template <typename T>
+concept has_bound = requires(T t, float v) { t.bound(v); };
 
 // An effect that is off takes its members away, and only its own.
 static_assert(!has_opacity<rg8> && !has_bound<rg8>);
@@ -61,7 +65,8 @@ struct looks_like_a_texel {
     std::uint8_t stored[2];
 };
 static_assert(texel_format<rg8> && texel_format<test::paper_rgba32f>);
-static_assert(!texel_format<looks_like_a_texel> && !texel_format<const rg8> && !texel_format<rg8&> && !texel_format<std::uint8_t> && !texel_format<unorm8>);
+static_assert(!texel_format<looks_like_a_texel> && !texel_format<const rg8> && !texel_format<rg8&> && !texel_format<std::uint8_t> &&
+              !texel_format<unorm8>);
 
 static_assert(representation<depth_mask> && representation<paper_depth_mask> && representation<representation_models::can_clear>);
 static_assert(!representation<representation_models::may_throw> && !representation<representation_models::cannot_clear>);
@@ -69,8 +74,9 @@ static_assert(!representation<unorm8> && !representation<void>);
 
 // Memory: the channels in order, and nothing else.
 template <typename Texel> constexpr bool is_only_its_channels() {
-    return sizeof(Texel) == static_cast<std::size_t>(Texel::channels) * sizeof(typename Texel::storage) && alignof(Texel) == alignof(typename Texel::storage) &&
-           std::is_trivially_copyable_v<Texel> && std::is_standard_layout_v<Texel> && std::is_aggregate_v<Texel>;
+    return sizeof(Texel) == static_cast<std::size_t>(Texel::channels) * sizeof(typename Texel::storage) &&
+           alignof(Texel) == alignof(typename Texel::storage) && std::is_trivially_copyable_v<Texel> &&
+           std::is_standard_layout_v<Texel> && std::is_aggregate_v<Texel>;
 }
 template <typename... Texels> constexpr bool all_are_only_their_channels() { return (is_only_its_channels<Texels>() && ...); }
 static_assert(all_are_only_their_channels<EVERY_TEXEL>());
@@ -126,9 +132,11 @@ TEST_CASE_TEMPLATE("a caster stores its depth in its own way and a full mask", T
         const float s = dice.any_unit();
         const Texel t = Texel::caster(s);
         const double stored = complement ? 1.0 - static_cast<double>(s) : static_cast<double>(s);
-        bool good = t.stored[Texel::depth_index] >= channel_type::encode(stored) && t.stored[Texel::depth_index] <= channel_type::encode(stored);
+        bool good = t.stored[Texel::depth_index] >= channel_type::encode(stored) &&
+                    t.stored[Texel::depth_index] <= channel_type::encode(stored);
         good = good && t.occupied() && test::equal(number(t, Texel::mask_index), 1.0);
-        if constexpr (Texel::effects.far_bound) good = good && test::equal(number(t, Texel::far_index), number(Texel::clear(), Texel::far_index));
+        if constexpr (Texel::effects.far_bound)
+            good = good && test::equal(number(t, Texel::far_index), number(Texel::clear(), Texel::far_index));
         if constexpr (Texel::effects.translucency) good = good && test::equal(number(t, Texel::contribution_index), 1.0);
         wrong.unless(good, "s", s);
     }
@@ -136,8 +144,10 @@ TEST_CASE_TEMPLATE("a caster stores its depth in its own way and a full mask", T
 }
 
 TEST_CASE_TEMPLATE("a caster outside of 0 to 1 is clamped and one at NaN is at the far plane", Texel, EVERY_TEXEL) {
-    for (const float s : {-test::infinity<float>, -1.0f, -test::smallest<float>, -0.0f}) CHECK(Texel::caster(s) == Texel::caster(0.0f));
-    for (const float s : {test::infinity<float>, 2.0f, test::up(1.0f), test::nan<float>}) CHECK(Texel::caster(s) == Texel::caster(1.0f));
+    for (const float s : {-test::infinity<float>, -1.0f, -test::smallest<float>, -0.0f})
+        CHECK(Texel::caster(s) == Texel::caster(0.0f));
+    for (const float s : {test::infinity<float>, 2.0f, test::up(1.0f), test::nan<float>})
+        CHECK(Texel::caster(s) == Texel::caster(1.0f));
 }
 
 TEST_CASE_TEMPLATE("opacity is stored as the contribution and changes nothing else", Texel, rga8, rga32f, EVERY_FULL_TEXEL) {
@@ -167,7 +177,8 @@ TEST_CASE_TEMPLATE("cast keeps the nearest of three casters in whichever order t
                 do {
                     Texel t = Texel::clear();
                     for (const unsigned i : order) t.cast(three[i]);
-                    wrong.unless(t == winner, "order", order[0], order[1], order[2], "depths", a.stored[0], b.stored[0], c.stored[0]);
+                    wrong.unless(t == winner, "order", order[0], order[1], order[2], "depths", a.stored[0], b.stored[0],
+                                 c.stored[0]);
                 } while (std::next_permutation(order.begin(), order.end()));
             }
     CHECK(wrong.report() == "");
@@ -197,14 +208,16 @@ TEST_CASE("bound keeps the nearest receiver that is not before the caster for al
                 rgb8 t = once;
                 t.bound(at(b));
                 const int nearest = greater(a <= caster ? a : 0, b <= caster ? b : 0);
-                wrong.unless(t == rgb8{{alone.stored[0], 255, static_cast<std::uint8_t>(nearest)}}, "caster", caster, "receivers", a, b);
+                wrong.unless(t == rgb8{{alone.stored[0], 255, static_cast<std::uint8_t>(nearest)}}, "caster", caster, "receivers",
+                             a, b);
             }
         }
     }
     CHECK(wrong.report() == "");
 }
 
-TEST_CASE_TEMPLATE("bound ignores receivers before the caster and texels without one", Texel, rgb8, rgb16, rgb16f, rgb32f, EVERY_FULL_TEXEL) {
+TEST_CASE_TEMPLATE("bound ignores receivers before the caster and texels without one", Texel, rgb8, rgb16, rgb16f, rgb32f,
+                   EVERY_FULL_TEXEL) {
     Texel t = Texel::clear();
     t.bound(0.5f);
     CHECK(t == Texel::clear());
@@ -215,13 +228,14 @@ TEST_CASE_TEMPLATE("bound ignores receivers before the caster and texels without
     for (const float far_plane : {1.0f, 2.0f, test::infinity<float>, test::nan<float>}) t.bound(far_plane);
     CHECK(t == Texel::caster(0.5f));
     t.bound(0.75f);
-    CHECK(test::equal(number(t, Texel::far_index), static_cast<double>(Texel::channel_type::decode(Texel::channel_type::encode(Texel::representation_type::stored_depth(0.75))))));
+    CHECK(test::equal(number(t, Texel::far_index), static_cast<double>(Texel::channel_type::decode(Texel::channel_type::encode(
+                                                       Texel::representation_type::stored_depth(0.75))))));
     t.bound(0.5f); // what it lies on
     CHECK(t.stored[Texel::far_index] == t.stored[Texel::depth_index]);
 }
 
-TEST_CASE_TEMPLATE("h11_far_bound_keeps_order: a receiver behind its caster is never stored before it", Texel, rgb8, rgb16, rgb16f, rgb32f, test::paper_rgba8,
-                   test::paper_rgba16f, test::paper_rgba32f) {
+TEST_CASE_TEMPLATE("h11_far_bound_keeps_order: a receiver behind its caster is never stored before it", Texel, rgb8, rgb16, rgb16f,
+                   rgb32f, test::paper_rgba8, test::paper_rgba16f, test::paper_rgba32f) {
     using representation_type = typename Texel::representation_type;
     test::float_dice dice(11);
     sweep wrong;

@@ -39,7 +39,8 @@ template <typename Holds> counted count(Holds holds) {
         for (int x = -4; x < 12; ++x)
             if (holds(x, y)) {
                 set.box = set.texels == 0 ? texel_rect{x, y, x + 1, y + 1}
-                                          : texel_rect{lesser(set.box.x0, x), lesser(set.box.y0, y), greater(set.box.x1, x + 1), greater(set.box.y1, y + 1)};
+                                          : texel_rect{lesser(set.box.x0, x), lesser(set.box.y0, y), greater(set.box.x1, x + 1),
+                                                       greater(set.box.y1, y + 1)};
                 ++set.texels;
             }
     return set;
@@ -124,7 +125,8 @@ TEST_CASE("grow saturates at the ends of int and never moves a side inwards") {
                 if (low >= high) continue;
                 const texel_rect grown = grow({low, low, high, high}, g);
                 const std::int64_t by = greater(g, 0), lowest = std::int64_t{low} - by, highest = std::int64_t{high} + by;
-                wrong.unless(grown.x0 == grown.y0 && grown.x1 == grown.y1 && grown.x0 <= low && grown.x1 >= high, "inwards", low, high, "by", g);
+                wrong.unless(grown.x0 == grown.y0 && grown.x1 == grown.y1 && grown.x0 <= low && grown.x1 >= high, "inwards", low,
+                             high, "by", g);
                 wrong.unless(lowest < -std::int64_t{int_max} || grown.x0 == lowest, "low side", low, "by", g);
                 wrong.unless(highest > std::int64_t{int_max} || grown.x1 == highest, "high side", high, "by", g);
             }

@@ -110,9 +110,9 @@ template <kernel Kernel, texel_format Texel>
 void filter_region(std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, texel_rect region,
                    filter_scratch<Texel, Kernel>& scratch) noexcept {
     static_assert(kernel_is_sound<Kernel>());
+    region = clip(clip(region, to.size()), from.size());
     GNOMON_ASSERT(from.data() != to.data() || region.empty(), "gnomon: a filter reads one image and writes another");
     if (from.data() == to.data()) return;
-    region = clip(clip(region, to.size()), from.size());
     [[maybe_unused]] const auto needed = filter_scratch_size<Texel, Kernel>(region.width());
     GNOMON_ASSERT(region.empty() || scratch.line().size() >= needed,
                   "gnomon: the filter's scratch is narrower than the region; make it for the map's width");
