@@ -2,6 +2,8 @@
 
 #include <gnomon/geometry/footprint.hpp>
 
+#include "../support/world_dice.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -10,11 +12,7 @@
 using namespace gnomon;
 
 namespace {
-struct dice {
-    std::mt19937_64 bits;
-    double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(bits); }
-    glm::dvec3 vector(double reach) { return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)}; }
-};
+using dice = test::world_dice;
 
 double from_whole(double v) { return std::abs(v - std::round(v)); }
 double texel_size(const light_frame& light) { return 1.0 / glm::length(glm::dvec3(detail::row(light.matrix(), 0))); }

@@ -3,6 +3,8 @@
 #include <gnomon/geometry/directional_light.hpp>
 #include <gnomon/geometry/spot_light.hpp>
 
+#include "../support/world_dice.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -13,14 +15,7 @@
 using namespace gnomon;
 
 namespace {
-struct dice {
-    std::mt19937_64 bits;
-    double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(bits); }
-    glm::dvec3 vector(double reach) { return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)}; }
-    glm::dvec3 inside(const bounding_box& b) {
-        return {(*this)(b.lower.x, b.upper.x), (*this)(b.lower.y, b.upper.y), (*this)(b.lower.z, b.upper.z)};
-    }
-};
+using dice = test::world_dice;
 
 constexpr extent map_size{300, 260};
 

@@ -6,6 +6,8 @@
 #include <gnomon/geometry/spot_light.hpp>
 #include <gnomon/grid/tile_grid.hpp>
 
+#include "../support/world_dice.hpp"
+
 #include <doctest/doctest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -22,11 +24,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr extent map_size{96, 80};
 
-struct dice {
-    std::mt19937_64 bits;
-    double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(bits); }
-    glm::dvec3 vector(double reach) { return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)}; }
-};
+using dice = test::world_dice;
 
 struct mesh_data {
     std::vector<glm::vec3> positions;

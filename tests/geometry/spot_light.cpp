@@ -2,6 +2,8 @@
 
 #include <gnomon/texel/channel.hpp>
 
+#include "../support/world_dice.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -10,11 +12,7 @@
 using namespace gnomon;
 
 namespace {
-struct dice {
-    std::mt19937_64 bits;
-    double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(bits); }
-    glm::dvec3 vector(double reach) { return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)}; }
-};
+using dice = test::world_dice;
 } // namespace
 
 TEST_CASE("h18: depth is linear in the distance along the axis, wherever beside it") {
