@@ -86,6 +86,20 @@ TEST_CASE_TEMPLATE("towards light: every receiver behind the band that bias.hpp 
     CHECK(worst > 0.5);
 }
 
+TEST_CASE_TEMPLATE("towards shadow: a blended sample with any mask at all is shadowed behind its caster", Texel,
+                   EVERY_PLAIN_TEXEL) {
+    sweep wrong;
+    for (const float s : {0.25f, 0.5f, 0.9f}) {
+        image<Texel> map({2, 1}, Texel::clear());
+        map(0, 0) = test::filtered(Texel::caster(s), 1, 255); // the faintest code there is, in 8 bits
+        for (int step = 0; step < 256; ++step) {
+            const auto faint = sample(map.view(), 0.5f + static_cast<float>(step) / 256.0f, 0.5f);
+            wrong.unless(shadow(faint, test::up(s), rule{.caster = towards_shadow}) > 0.0f, "s", s, "step", step, "of 256");
+        }
+    }
+    CHECK(wrong.report() == "");
+}
+
 TEST_CASE_TEMPLATE("towards light: every receiver behind the stated band is shadowed and the band is nearly needed", Texel,
                    EVERY_PLAIN_TEXEL) {
     constexpr bool paper = std::is_same_v<typename Texel::representation_type, paper_depth_mask>;

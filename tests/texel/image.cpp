@@ -92,7 +92,7 @@ TEST_CASE("an image with a side that is zero or negative has no texels there") {
     CHECK(image<int>().size() == extent{});
     CHECK(image<int>().view().part({-5, -5, 5, 5}).size() == extent{});
     image<int>({-3, 4}).view().fill({-9, -9, 9, 9}, 1);
-    CHECK(image_view<int>(nullptr, {-3, 4}).size() == extent{0, 4});
+    CHECK(image_view<int>(nullptr, {-3, 4}).size().empty());
     CHECK(image_view<int>().size().empty());
 }
 

@@ -29,7 +29,7 @@ concept backend_for = texel_format<Texel> && kernel<Kernel> &&
 template <kernel Kernel, texel_format Texel, backend_for<Texel, Kernel> Backend>
 void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const tile_grid& tiles,
             filter_scratch<Texel, Kernel>& scratch) noexcept {
-    GNOMON_ASSERT(tiles.size() == from.size() && tiles.size() == to.size(),
+    GNOMON_ASSERT(tiles.size().empty() || (tiles.size() == from.size() && tiles.size() == to.size()),
                   "gnomon: the tile grid and both images must have the same size");
     for_each_region_to_filter<Kernel>(tiles, [&](texel_rect r) { run.filter_region(from, to, r, scratch); });
 }

@@ -58,8 +58,8 @@ template <typename T> class image_view {
 
     constexpr image_view() noexcept = default;
     image_view(T* data, extent size, std::ptrdiff_t stride) noexcept
-        : data_(data), size_{greater(size.width, 0), greater(size.height, 0)}, stride_(stride) {
-        if (data == nullptr && !size.empty()) size_ = {};
+        : data_(data), size_{data != nullptr ? greater(size.width, 0) : 0, data != nullptr ? greater(size.height, 0) : 0},
+          stride_(stride) {
         GNOMON_ASSERT(data != nullptr || size.empty(), "gnomon: an image_view that is not empty needs memory");
         GNOMON_ASSERT(stride % static_cast<std::ptrdiff_t>(alignof(T)) == 0,
                       "gnomon: the rows of an image_view must be aligned for its texels");
