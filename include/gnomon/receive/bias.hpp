@@ -18,7 +18,7 @@ enum class bias_towards {
 /// just as the doubt does, and no constant depth offset could do the same work. How much it is follows from the texel's channel.
 ///
 /// `towards_light`, which is also `bias{}`, `unbiased` and `towards_shadow` are the three to use. In words of unorm codes: with k
-/// roundings, and h half a code of depth, towards light shadows iff E - k/2 > (M + k/2) (1 - (z - h)).
+/// roundings and h = caster_depth_error, towards light shadows iff E - k/2 > (M + k/2) (1 - (z - h)).
 struct bias {
     bias_towards towards = bias_towards::light;
     /// How often a filtered number was rounded to storage: 1 for gnomon's filters, 2 for a two-pass filter that stores between.
