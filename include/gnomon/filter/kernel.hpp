@@ -71,7 +71,10 @@ constexpr weights_of<Radius> apportion(const std::array<Number, static_cast<std:
         rest[i] = ideal - share[i];
         left -= i == 0 ? share[i] : 2 * share[i];
     }
-    if (left % 2 != 0) ++share[0], --left, rest[0] = 0.0;
+    if (left % 2 != 0) {
+        ++share[0];
+        --left;
+    }
     for (; left > 0; left -= 2) {
         std::size_t most = 1;
         for (std::size_t i = 2; i <= Radius; ++i)
@@ -87,7 +90,7 @@ constexpr weights_of<Radius> apportion(const std::array<Number, static_cast<std:
 /// exp(-x) for x >= 0, within 2e-15: the series at x / 2^k, squared k times. (No constexpr <cmath> in C++20.)
 constexpr double exp_minus(double x) {
     int halvings = 0;
-    for (; x > 0.125; x /= 2) ++halvings;
+    for (; x > 0.125; ++halvings) x /= 2;
     double term = 1.0, sum = 1.0;
     for (int n = 1; n < 14; ++n) sum += term *= -x / n;
     for (; halvings > 0; --halvings) sum *= sum;

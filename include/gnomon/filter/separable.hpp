@@ -87,9 +87,10 @@ void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) no
     for (int x = 0; x < width; ++x)
         for (int c = 0; c < channels; ++c) {
             wide sum{};
-            for (int tap = 0; tap <= 2 * Kernel::radius; ++tap)
-                sum += static_cast<wide>(Kernel::weights[static_cast<std::size_t>(tap)]) *
-                       static_cast<wide>(line[static_cast<std::size_t>((x + tap) * channels + c)]);
+            for (int tap = 0; tap <= 2 * Kernel::radius; ++tap) {
+                const auto i = static_cast<std::size_t>(x + tap) * channels + static_cast<std::size_t>(c);
+                sum += static_cast<wide>(Kernel::weights[static_cast<std::size_t>(tap)]) * static_cast<wide>(line[i]);
+            }
             if constexpr (channel_type::whole_codes)
                 to[x].stored[c] = static_cast<storage>((sum + whole / 2) / whole); // to nearest, halves upwards
             else
