@@ -107,16 +107,11 @@ std::string html(const std::vector<row>& rows, const std::string& mesh_name) {
         text(". Shadow map %d x %d, tiles of %d, kernel <code>%s</code>. ", map_extent.width, map_extent.height, tile_size,
              escaped(kernel_name).c_str()) +
         "Truth is exact percentage-closer filtering of the unfiltered map with the same kernel in double precision, blended from "
-        "the "
-        "same four texels; "
-        "the hard test reads the nearest texel. Errors are of shadow intensity, 0 to 1, over the camera samples that receive: "
-        "those on "
-        "the map whose surface is turned to the light. "
-        "False shadow: truth at most 0.5/255 and more than 2/255 answered. False light: truth at least 0.5 and more than 0.25 of "
-        "it "
-        "missing. "
-        "Rows a to d decide with bias towards shadow, as is right for casters that never receive. "
-        "In difference pictures red is too dark and blue too light, as many times too strong as the caption says. "
+        "the same four texels; the hard test reads the nearest texel. Errors are of shadow intensity, 0 to 1, over the camera "
+        "samples that receive: those on the map whose surface is turned to the light. False shadow: truth at most 0.5/255 and more "
+        "than 2/255 answered. False light: truth at least 0.5 and more than 0.25 of it missing. Rows a to d decide with bias "
+        "towards shadow, as is right for casters that never receive. In difference pictures red is too dark and blue too light, as "
+        "many times too strong as the caption says. "
         "Times are medians of five on a shared machine, scalar code on one core: good for comparing rows of one run, no more.</p>\n"
         "<p><a href=\"table.csv\">table.csv</a> &middot; <a href=\"contact_sheet.png\">contact_sheet.png</a></p>\n";
     for (const row& r : rows) {

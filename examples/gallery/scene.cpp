@@ -46,10 +46,8 @@ scene on_the_ground() {
     s.from = {{0.35f, 1.9f, 3.3f}, {-0.02f, 0.33f, 0.05f}, 0.315f};
     s.variants = {{"lightmap", "a  Mesh over a floor with a precomputed lightmap",
                    "The pillar's shadow is baked into the lightmap, the mesh's is dynamic; both should look like the work of one "
-                   "light, and where "
-                   "they meet nothing may be darkened twice. What error there is sits at the feet, where mesh and floor are too "
-                   "close for a mean "
-                   "depth."}};
+                   "light, and where they meet nothing may be darkened twice. What error there is sits at the feet, where mesh and "
+                   "floor are too close for a mean depth."}};
     return s;
 }
 
@@ -107,11 +105,10 @@ scene between() {
     s.play_area = {{-1.3, 0.0, -1.0}, {1.5, 1.7, 1.0}};
     s.reach = {{-1.3, 0.0, -1.0}, {2.4, 0.1, 1.0}};
     s.from = {{0.20f, 2.35f, 3.25f}, {0.02f, 0.74f, 0.0f}, 0.305f};
-    s.variants = {
-        {"between", "d  A receiver between two casters: the stated weakness",
-         "One mesh stands on the table, another under it; where both fall into one filter footprint their mean depth decides for "
-         "the table top, and its shadow there is torn at every precision: a hard edge instead of a soft one, and a piece of it "
-         "missing. The thin outline to its right is the price of 8 bits biased towards shadow."}};
+    s.variants = {{"between", "d  A receiver between two casters: the stated weakness",
+                   "One mesh stands on the table, another under it; where both fall into one filter footprint their mean depth "
+                   "decides for the table top, and its shadow there is torn at every precision: a hard edge instead of a soft one, "
+                   "and a piece of it missing. The thin outline to its right is the price of 8 bits biased towards shadow."}};
     return s;
 }
 
@@ -124,14 +121,12 @@ scene bias() {
     s.reach = {{-2.0, 0.0, -2.0}, {2.0, 0.1, 2.0}};
     s.from = {{0.25f, 1.7f, 3.2f}, {0.12f, 0.50f, 0.0f}, 0.285f};
     s.casters_receive = true;
-    const std::string about =
-        "The mesh shadows itself here, which the method is not made for: where its surface curves, the mean depth "
-        "around it is not its own, at any precision. ";
+    const std::string about = "The mesh shadows itself here, which the method is not made for: where its surface curves, the mean "
+                              "depth around it is not its own, at any precision. ";
     s.variants = {
         {"bias_light", "e  Bias towards light: a mesh that also receives",
          about + "Towards light, rounding to 8 bits adds no false shadow to that; the price is the faint rim of the shadow where "
-                 "it meets "
-                 "the floor.",
+                 "it meets the floor.",
          gnomon::bias_towards::light},
         {"bias_none", "e  No bias: a mesh that also receives",
          about + "Without bias, rounding decides wherever a surface meets its own stored depth, and 8 bits draw contour lines.",

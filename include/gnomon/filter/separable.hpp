@@ -63,13 +63,13 @@ void sum_columns(image_view<const Texel> from, int y, int x0, int x1, std::span<
     for (int tap = 0; tap <= 2 * Kernel::radius; ++tap) {
         const auto weight = static_cast<element>(Kernel::weights[static_cast<std::size_t>(tap)]);
         const int row = y + tap - Kernel::radius;
-        const bool on_map = row >= 0 && row < from.height();
-        const Texel* texels = on_map ? from.row(row) : nullptr;
+        if (row < 0 || row >= from.height()) {
+            add(weight, x0, x1, outside);
+            continue;
+        }
+        const Texel* texels = from.row(row);
         add(weight, x0, inside0, outside);
-        if (on_map)
-            add(weight, inside0, inside1, [texels](int x) -> const Texel& { return texels[x]; });
-        else
-            add(weight, inside0, inside1, outside);
+        add(weight, inside0, inside1, [texels](int x) -> const Texel& { return texels[x]; });
         add(weight, inside1, x1, outside);
     }
     if constexpr (!channel_type::whole_codes)
