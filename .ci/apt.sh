@@ -20,3 +20,11 @@ need_packages() {
     "${root[@]}" apt-get -q update >&2
     "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q install -y --no-install-recommends "${missing[@]}" >&2
 }
+
+# The same for a part that can be left out: false, with the reason in $missing_packages, where they cannot be installed.
+try_packages() {
+    missing_packages=
+    (need_packages "$@") && return 0
+    missing_packages="cannot install $*"
+    return 1
+}
