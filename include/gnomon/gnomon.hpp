@@ -2,8 +2,11 @@
 #pragma once
 
 #include <gnomon/backend/scalar.hpp>
+#include <gnomon/filter/pyramid.hpp>
 #include <gnomon/grid/reference_grid.hpp>
 #include <gnomon/receive/cull.hpp>
+#include <gnomon/receive/depth_error.hpp>
 #include <gnomon/receive/lightmap.hpp>
 #include <gnomon/soft_shadow_map.hpp>
+#include <gnomon/texel/depth_shear.hpp>
 #include <gnomon/version.hpp>

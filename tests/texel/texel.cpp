@@ -31,11 +31,14 @@ struct may_throw : depth_mask {
     static constexpr bool behind(double, double, double) { return false; }
 };
 struct cannot_clear {
-    static constexpr double stored_depth(double z) noexcept { return z; }
+    static constexpr bool premultiplied = true;
+    template <channel Channel> static constexpr typename Channel::storage encode(float) noexcept { return {}; }
     template <typename Code> static constexpr bool nearer(Code a, Code b) noexcept { return a < b; }
     static constexpr double complement(double d, double) noexcept { return d; }
     static constexpr bool behind(double, double, double) noexcept { return false; }
     template <channel Channel> static constexpr rounding_error depth_rounding() noexcept { return Channel::rounding; }
+    template <channel Channel> static constexpr rounding_error mask_rounding() noexcept { return Channel::rounding; }
+    template <channel Channel> static constexpr caster_rounding depth_of_caster() noexcept { return {0.0f, 0.0f}; }
 };
 struct can_clear : cannot_clear {
     static constexpr double clear_depth = 0.0;
@@ -228,8 +231,9 @@ TEST_CASE_TEMPLATE("bound ignores receivers before the caster and texels without
     for (const float far_plane : {1.0f, 2.0f, test::infinity<float>, test::nan<float>}) t.bound(far_plane);
     CHECK(t == Texel::caster(0.5f));
     t.bound(0.75f);
-    CHECK(test::equal(number(t, Texel::far_index), static_cast<double>(Texel::channel_type::decode(Texel::channel_type::encode(
-                                                       Texel::representation_type::stored_depth(0.75))))));
+    CHECK(test::equal(number(t, Texel::far_index),
+                      static_cast<double>(Texel::channel_type::decode(
+                          Texel::representation_type::template encode<typename Texel::channel_type>(0.75f)))));
     t.bound(0.5f); // what it lies on
     CHECK(t.stored[Texel::far_index] == t.stored[Texel::depth_index]);
 }
@@ -246,7 +250,7 @@ TEST_CASE_TEMPLATE("h11_far_bound_keeps_order: a receiver behind its caster is n
         Texel t = Texel::caster(s);
         t.bound(f);
         const auto depth = t.stored[Texel::depth_index], bound = t.stored[Texel::far_index];
-        const auto receiver = Texel::channel_type::encode(representation_type::stored_depth(static_cast<double>(f)));
+        const auto receiver = representation_type::template encode<typename Texel::channel_type>(f);
         wrong.unless(!representation_type::nearer(bound, depth), "s", s, "f", f);
         wrong.unless(bound >= receiver && bound <= receiver, "not stored: s", s, "f", f);
     }

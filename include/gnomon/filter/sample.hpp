@@ -8,6 +8,9 @@ namespace gnomon {
 
 /// A filtered texel as numbers, in codes: what a decision is made from. Reading a stored texel loses nothing.
 template <texel_format Texel> struct filtered {
+    /// What a full mask is.
+    static constexpr double scale = Texel::linear_scale;
+
     double code[static_cast<std::size_t>(Texel::channels)];
 
     /// Premultiplied reversed depth e, whichever way the representation stores it.
@@ -26,14 +29,14 @@ template <texel_format Texel> struct filtered {
 
   private:
     [[nodiscard]] constexpr double complement(int index) const noexcept {
-        return Texel::representation_type::complement(code[index], static_cast<double>(Texel::channel_type::scale));
+        return Texel::representation_type::complement(code[index], scale);
     }
 };
 
 /// The numbers of one stored texel.
 template <texel_format Texel> [[nodiscard]] constexpr filtered<Texel> read(const Texel& texel) noexcept {
     filtered<Texel> f{};
-    for (int c = 0; c < Texel::channels; ++c) f.code[c] = static_cast<double>(Texel::channel_type::code(texel.stored[c]));
+    for (int c = 0; c < Texel::channels; ++c) f.code[c] = texel.template linear<double>(c);
     return f;
 }
 

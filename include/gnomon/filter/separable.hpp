@@ -14,7 +14,9 @@
 namespace gnomon {
 
 /// What a line between the passes holds: whole numbers where codes are whole (exact), doubles otherwise.
-template <texel_format Texel> using line_element = std::conditional_t<Texel::channel_type::whole_codes, std::uint32_t, double>;
+template <texel_format Texel>
+using line_element = std::conditional_t < !Texel::channel_type::whole_codes,
+      double, std::conditional_t<Texel::linear_scale * kernel_total_limit<4294967296.0, std::uint32_t, std::uint64_t>>;
 
 /// The memory a filter needs beside its images: one line of wide sums, used again for every row. Nothing is read from it that the
 /// same call did not write, so it may hold anything. For a map of `width` texels: filter_scratch_size<Texel, Kernel>(width)
@@ -48,15 +50,13 @@ namespace detail {
 template <kernel Kernel, texel_format Texel>
 void sum_columns(image_view<const Texel> from, int y, int x0, int x1, std::span<line_element<Texel>> line) noexcept {
     using element = line_element<Texel>;
-    using channel_type = typename Texel::channel_type;
     constexpr int channels = Texel::channels;
     constexpr Texel clear = Texel::clear();
     const int inside0 = lesser(greater(x0, 0), x1), inside1 = greater(lesser(x1, from.width()), inside0);
     const auto add = [&line, x0](element weight, int first, int last, auto texel_at) {
         element* sum = line.data() + static_cast<std::ptrdiff_t>(first - x0) * channels;
         for (int x = first; x < last; ++x)
-            for (int c = 0; c < channels; ++c, ++sum)
-                *sum += weight * static_cast<element>(channel_type::code(texel_at(x).stored[c]));
+            for (int c = 0; c < channels; ++c, ++sum) *sum += weight * texel_at(x).template linear<element>(c);
     };
     const auto outside = [&clear](int) -> const Texel& { return clear; };
     for (std::size_t i = 0; i < static_cast<std::size_t>(x1 - x0) * channels; ++i) line[i] = element{};
@@ -72,30 +72,25 @@ void sum_columns(image_view<const Texel> from, int y, int x0, int x1, std::span<
         add(weight, inside0, inside1, [texels](int x) -> const Texel& { return texels[x]; });
         add(weight, inside1, x1, outside);
     }
-    if constexpr (!channel_type::whole_codes)
+    if constexpr (!Texel::channel_type::whole_codes)
         for (std::size_t i = 0; i < static_cast<std::size_t>(x1 - x0) * channels; ++i) line[i] = to_36_bits(line[i]);
 }
 
 /// The second pass and the one rounding: `width` texels out of a line that begins Kernel::radius columns before them.
 template <kernel Kernel, texel_format Texel>
 void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) noexcept {
-    using channel_type = typename Texel::channel_type;
-    using storage = typename Texel::storage;
     constexpr int channels = Texel::channels;
-    constexpr auto whole = static_cast<std::uint64_t>(Kernel::total) * static_cast<std::uint64_t>(Kernel::total);
-    using wide = std::conditional_t<channel_type::whole_codes, std::uint64_t, double>;
-    for (int x = 0; x < width; ++x)
-        for (int c = 0; c < channels; ++c) {
-            wide sum{};
+    using wide = std::conditional_t<Texel::channel_type::whole_codes, std::uint64_t, double>;
+    constexpr wide whole = static_cast<wide>(Kernel::total) * static_cast<wide>(Kernel::total);
+    for (int x = 0; x < width; ++x) {
+        wide sums[static_cast<std::size_t>(channels)]{};
+        for (int c = 0; c < channels; ++c)
             for (int tap = 0; tap <= 2 * Kernel::radius; ++tap) {
                 const auto i = static_cast<std::size_t>(x + tap) * channels + static_cast<std::size_t>(c);
-                sum += static_cast<wide>(Kernel::weights[static_cast<std::size_t>(tap)]) * static_cast<wide>(line[i]);
+                sums[c] += static_cast<wide>(Kernel::weights[static_cast<std::size_t>(tap)]) * static_cast<wide>(line[i]);
             }
-            if constexpr (channel_type::whole_codes)
-                to[x].stored[c] = static_cast<storage>((sum + whole / 2) / whole); // to nearest, halves upwards
-            else
-                to[x].stored[c] = channel_type::store(sum / static_cast<double>(whole));
-        }
+        to[x] = Texel::from_linear(sums, whole);
+    }
 }
 
 } // namespace detail

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <gnomon/rect.hpp>
+#include <gnomon/texel/depth_shear.hpp>
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -92,6 +93,10 @@ class light_frame {
     /// to. Invalid for a far plane at infinity, for oblique near planes, and for sheared or mirrored w.
     [[nodiscard]] static light_frame from_matrix(const glm::dmat4& world_to_clip, extent size, clip_space clip) noexcept;
 
+    /// The same light with its depth range cut to where casters are, for both casters and receivers; see depth_shear, which does the
+    /// same to depths. An empty interval changes nothing; one that begins behind a spot light makes an invalid frame.
+    [[nodiscard]] light_frame sheared(depth_interval casters) const noexcept;
+
     [[nodiscard]] bool valid() const noexcept { return far_w_ > 0.0; }
     [[nodiscard]] bool perspective() const noexcept { return near_w_ < far_w_; }
     [[nodiscard]] extent size() const noexcept { return size_; }
@@ -129,6 +134,15 @@ class light_frame {
     double near_w_ = 0.0;
     double far_w_ = 0.0;
 };
+
+inline light_frame light_frame::sheared(depth_interval casters) const noexcept {
+    if (casters.empty()) return *this;
+    const double first = static_cast<double>(casters.nearest), span = static_cast<double>(depth_shear{casters}.span());
+    const glm::dvec4 depth = (detail::row(matrix_, 2) - glm::dvec4(0.0, 0.0, 0.0, first)) / span;
+    const double w_per_depth = far_w_ - near_w_;
+    return {detail::from_rows(detail::row(matrix_, 0), detail::row(matrix_, 1), depth, detail::row(matrix_, 3)), size_,
+            near_w_ + first * w_per_depth, near_w_ + (first + span) * w_per_depth};
+}
 
 inline glm::mat4 light_frame::clip_matrix(clip_space clip, const glm::dvec3& origin) const noexcept {
     if (!valid()) return glm::mat4(0.0f);

@@ -18,7 +18,9 @@ enum class bias_towards {
 /// just as the doubt does, and no constant depth offset could do the same work. How much it is follows from the texel's channel.
 ///
 /// `towards_light`, which is also `bias{}`, `unbiased` and `towards_shadow` are the three to use. In words of unorm codes: with k
-/// roundings and h = caster_depth_error, towards light shadows iff E - k/2 > (M + k/2) (1 - (z - h)).
+/// roundings and h = 1/2 code, what a caster's own depth was rounded by, towards light shadows iff E - k/2 > (M + k/2) (1 - (z - h)).
+/// No smaller one does: (E - k/2) / (M + k/2) is the least depth that such a pair can come from. A depth_ratio rounds towards the
+/// light by itself and is left as it is.
 struct bias {
     bias_towards towards = bias_towards::light;
     /// How often a filtered number was rounded to storage: 1 for gnomon's filters, 2 for a two-pass filter that stores between.
@@ -36,6 +38,7 @@ struct bias {
 ///     unorm   s + q (1+r+q)/m + q, where r = max(1-z, 0)
 ///     half    s + 6 q, for m >= 2^-10
 ///     float   s + 16 q
+/// and in texels of depth_ratio s + q, at every mask that is not empty.
 inline constexpr bias towards_light{};
 
 /// Exactly what is stored.
@@ -44,8 +47,13 @@ inline constexpr bias unbiased{.towards = bias_towards::none};
 /// No light for any z > s. Shadow may begin before the caster, by as much as towards_light loses behind it.
 inline constexpr bias towards_shadow{.towards = bias_towards::shadow};
 
-/// What the rounding of a caster's own depth can do, and 2^-24 for the sums in float that apply it.
-template <texel_format Texel> inline constexpr float caster_depth_error = Texel::channel_type::max_error + 0x1p-24f;
+/// What the rounding of a caster's own depth can do on either side, and 2^-24 for the sums in float that apply it.
+template <texel_format Texel>
+inline constexpr caster_rounding caster_depth_error = [] {
+    constexpr caster_rounding own = Texel::representation_type::template depth_of_caster<typename Texel::channel_type>();
+    constexpr auto applied = [](float error) { return error > 0.0f ? error + 0x1p-24f : 0.0f; };
+    return caster_rounding{.nearer = applied(own.nearer), .farther = applied(own.farther)};
+}();
 
 /// The pair (e, m) and the receiver z, each moved to the favoured end of what it may have been before it was rounded.
 struct biased {
@@ -60,7 +68,7 @@ template <texel_format Texel> [[nodiscard]] constexpr biased apply(const bias& b
     using channel_type = typename Texel::channel_type;
     using real = std::conditional_t<channel_type::whole_codes, double, float>;
     constexpr rounding_error depth = Texel::representation_type::template depth_rounding<channel_type>();
-    constexpr rounding_error mask = channel_type::rounding;
+    constexpr rounding_error mask = Texel::representation_type::template mask_rounding<channel_type>();
     constexpr float own = channel_type::whole_codes ? 0.0f : 0x1p-22f; // two operations and the conversion of a blended sample
     const float towards = b.towards == bias_towards::light ? 1.0f : (b.towards == bias_towards::shadow ? -1.0f : 0.0f);
     const float k = towards * static_cast<float>(b.roundings);
@@ -68,7 +76,8 @@ template <texel_format Texel> [[nodiscard]] constexpr biased apply(const bias& b
                        static_cast<real>(1.0f - (k * depth.relative + towards * own));
     const real upper = (static_cast<real>(m) + static_cast<real>(k * mask.absolute)) *
                        static_cast<real>(1.0f + (k * mask.relative + towards * own));
-    const float caster = b.caster_is_code ? 0.0f : caster_depth_error<Texel>;
+    const float rounded = towards > 0.0f ? caster_depth_error<Texel>.nearer : caster_depth_error<Texel>.farther;
+    const float caster = b.caster_is_code ? 0.0f : rounded;
     return {static_cast<double>(lower), static_cast<double>(upper), z - towards * (b.depth + caster)};
 }
 

@@ -45,7 +45,7 @@ template <texel_format Texel>
     if (!(texel.mask() > 0.0) || !(z > 0.0f) || (r.lit_beyond && z > 1.0f)) return 0.0f;
     const biased near_side = apply<Texel>(r.caster, texel.depth(), texel.mask(), z);
     if (!representation_type::behind(near_side.e, near_side.m, static_cast<double>(near_side.z))) return 0.0f;
-    double intensity = saturate(texel.contribution() / static_cast<double>(Texel::channel_type::scale));
+    double intensity = saturate(texel.contribution() / filtered<Texel>::scale);
     if constexpr (Texel::effects.far_bound) intensity *= detail::before_far_bound(texel, z, r);
     return static_cast<float>(intensity);
 }

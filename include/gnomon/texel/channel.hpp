@@ -22,6 +22,12 @@ struct rounding_error {
     float absolute;
 };
 
+/// A caster's depth may be stored so much nearer to the light than it is, or farther from it.
+struct caster_rounding {
+    float nearer;
+    float farther;
+};
+
 /// How one number in [0, 1] is stored. Write your own by answering this list.
 ///
 /// `encode` rounds to the nearest stored value, is monotone, reaches every stored value in [0, 1], clamps, and takes NaN to 0.

@@ -11,17 +11,25 @@ namespace gnomon {
 /// e/m does not depend on the sum of the weights; floats keep their relative precision in the penumbra; e <= m always.
 /// Salzman 2007 writes the same pair as d = 1 - e; see paper_depth_mask.
 struct depth_mask {
+    /// The depth is stored times the mask, so any linear filter may take the channels one by one: a texture unit's, too.
+    static constexpr bool premultiplied = true;
     /// What an empty texel holds in its depth and far-bound channels.
     static constexpr double clear_depth = 0.0;
 
-    /// What a surface at depth `z` holds in them. NaN counts as the far plane.
-    [[nodiscard]] static constexpr double stored_depth(double z) noexcept { return 1.0 - z; }
+    /// What a surface at depth `z` holds in them, to nearest. NaN counts as the far plane.
+    template <channel Channel> [[nodiscard]] static constexpr typename Channel::storage encode(float z) noexcept {
+        return Channel::encode(1.0 - static_cast<double>(z));
+    }
 
     /// Is a surface stored as `a` nearer to the light than one stored as `b`?
     template <typename Code> [[nodiscard]] static constexpr bool nearer(Code a, Code b) noexcept { return a > b; }
 
-    /// How far a rounded depth code may be from its exact value.
+    /// How far a rounded code may be from its exact value, and a caster's stored depth from its own.
     template <channel Channel> [[nodiscard]] static constexpr rounding_error depth_rounding() noexcept { return Channel::rounding; }
+    template <channel Channel> [[nodiscard]] static constexpr rounding_error mask_rounding() noexcept { return Channel::rounding; }
+    template <channel Channel> [[nodiscard]] static constexpr caster_rounding depth_of_caster() noexcept {
+        return {.nearer = Channel::max_error, .farther = Channel::max_error};
+    }
 
     /// Premultiplied reversed depth e from the filtered depth code, in codes: here, itself.
     template <typename Real> [[nodiscard]] static constexpr Real complement(Real depth_code, Real /*scale*/) noexcept {

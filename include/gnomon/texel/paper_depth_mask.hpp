@@ -11,11 +11,14 @@ namespace gnomon {
 /// only if the weights sum to one in the arithmetic used; in floats d keeps an absolute, not a relative precision, which the
 /// division by m then magnifies (half at m = 1/100: 0.059 of the depth range against 0.001); unorm formats are equal, ties apart.
 struct paper_depth_mask {
+    static constexpr bool premultiplied = true;
     /// What an empty texel holds in its depth and far-bound channels.
     static constexpr double clear_depth = 1.0;
 
-    /// What a surface at depth `z` holds in them. NaN counts as the far plane.
-    [[nodiscard]] static constexpr double stored_depth(double z) noexcept { return z < 1.0 ? z : 1.0; }
+    /// What a surface at depth `z` holds in them, to nearest. NaN counts as the far plane.
+    template <channel Channel> [[nodiscard]] static constexpr typename Channel::storage encode(float z) noexcept {
+        return Channel::encode(z < 1.0f ? static_cast<double>(z) : 1.0);
+    }
 
     /// Is a surface stored as `a` nearer to the light than one stored as `b`?
     template <typename Code> [[nodiscard]] static constexpr bool nearer(Code a, Code b) noexcept { return a < b; }
@@ -23,6 +26,10 @@ struct paper_depth_mask {
     /// How far a rounded depth code may be from its exact value: near d = 1 a relative error is an absolute one.
     template <channel Channel> [[nodiscard]] static constexpr rounding_error depth_rounding() noexcept {
         return Channel::whole_codes ? Channel::rounding : rounding_error{.relative = 0.0f, .absolute = Channel::max_error};
+    }
+    template <channel Channel> [[nodiscard]] static constexpr rounding_error mask_rounding() noexcept { return Channel::rounding; }
+    template <channel Channel> [[nodiscard]] static constexpr caster_rounding depth_of_caster() noexcept {
+        return {.nearer = Channel::max_error, .farther = Channel::max_error};
     }
 
     /// Premultiplied reversed depth e = 1 - d from the filtered depth code, in codes.

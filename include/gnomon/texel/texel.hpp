@@ -3,28 +3,37 @@
 
 #include <gnomon/texel/channel.hpp>
 #include <gnomon/texel/depth_mask.hpp>
+#include <gnomon/texel/depth_ratio.hpp>
 #include <gnomon/texel/effects.hpp>
 #include <gnomon/texel/paper_depth_mask.hpp>
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
 
 namespace gnomon {
 
-/// What the numbers of a texel mean. Models: depth_mask (the default), paper_depth_mask.
+/// What the numbers of a texel mean. Models: depth_mask (the default), depth_ratio, paper_depth_mask.
 template <typename R>
-concept representation = requires(double v, float code) {
+concept representation = requires(double v, float z) {
+    requires std::same_as<std::remove_cv_t<decltype(R::premultiplied)>, bool>;
     { R::clear_depth } -> std::convertible_to<double>;
-    { R::stored_depth(v) } noexcept -> std::same_as<double>;
-    { R::nearer(code, code) } noexcept -> std::same_as<bool>;
+    { R::template encode<unorm8>(z) } noexcept -> std::same_as<std::uint8_t>;
+    { R::nearer(z, z) } noexcept -> std::same_as<bool>;
     { R::complement(v, v) } noexcept -> std::same_as<double>;
     { R::behind(v, v, v) } noexcept -> std::same_as<bool>;
-    { R::template depth_rounding<float32>() } noexcept -> std::same_as<rounding_error>;
+    { R::template depth_rounding<unorm8>() } noexcept -> std::same_as<rounding_error>;
+    { R::template mask_rounding<unorm8>() } noexcept -> std::same_as<rounding_error>;
+    { R::template depth_of_caster<unorm8>() } noexcept -> std::same_as<caster_rounding>;
 };
 
 /// Depth, mask, and the optional channels, interleaved: the object is the memory. Channel order: depth, mask, far bound
 /// (if any), contribution (if any). No padding: sizeof is channels times the storage, so an engine's buffer can be viewed as it is.
 template <channel Channel, representation Representation = depth_mask, effects Effects = effects{}> struct texel {
+    static_assert(
+        Representation::premultiplied || Channel::whole_codes,
+        "gnomon: depth_ratio is for unorm8 and unorm16; half16 and float32 keep a depth's precision in depth_mask already");
     using channel_type = Channel;
     using representation_type = Representation;
     using storage = typename Channel::storage;
@@ -49,7 +58,7 @@ template <channel Channel, representation Representation = depth_mask, effects E
     /// An opaque caster at unit depth `s`; clamped to [0, 1], NaN is the far plane.
     [[nodiscard]] static constexpr texel caster(float s) noexcept {
         texel t = clear();
-        t.stored[depth_index] = Channel::encode(Representation::stored_depth(static_cast<double>(s)));
+        t.stored[depth_index] = Representation::template encode<Channel>(s);
         t.stored[mask_index] = Channel::encode(1.0);
         if constexpr (Effects.translucency) t.stored[contribution_index] = Channel::encode(1.0);
         return t;
@@ -79,9 +88,44 @@ template <channel Channel, representation Representation = depth_mask, effects E
     constexpr void bound(float z) noexcept
         requires(Effects.far_bound)
     {
-        const storage surface = Channel::encode(Representation::stored_depth(static_cast<double>(z)));
+        const storage surface = Representation::template encode<Channel>(z);
         if (Representation::nearer(surface, stored[depth_index])) return;
         if (Representation::nearer(surface, stored[far_index])) stored[far_index] = surface;
+    }
+
+    /// What 1 is in `linear`.
+    static constexpr double linear_scale =
+        static_cast<double>(Channel::scale) * (Representation::premultiplied ? 1.0 : static_cast<double>(Channel::scale));
+
+    /// A channel as a linear filter has to see it, exactly: its code; and where depths are not stored times the mask, their product,
+    /// the other channels scaled alike. `Number` holds linear_scale.
+    template <typename Number> [[nodiscard]] constexpr Number linear(int c) const noexcept {
+        const auto code = static_cast<Number>(Channel::code(stored[c]));
+        if constexpr (Representation::premultiplied) return code;
+        const bool depth = c == depth_index || c == far_index;
+        return code * static_cast<Number>(depth ? Channel::code(stored[mask_index]) : Channel::scale);
+    }
+
+    /// The texel whose linear channels are sums / whole: the one rounding of a filter. \pre weights >= 0 that sum to `whole`
+    ///
+    /// Whole codes are rounded to nearest, halves upwards, from exact integers; half and float as their channel does; a ratio of
+    /// two sums is rounded down.
+    template <typename Sum> [[nodiscard]] static constexpr texel from_linear(const Sum* sums, Sum whole) noexcept {
+        texel t{};
+        for (int c = 0; c < channels; ++c) {
+            if constexpr (!Channel::whole_codes)
+                t.stored[c] = Channel::store(sums[c] / whole);
+            else if constexpr (Representation::premultiplied)
+                t.stored[c] = static_cast<storage>((sums[c] + whole / 2) / whole);
+            else {
+                const auto scale = static_cast<Sum>(Channel::scale);
+                const Sum mask = sums[mask_index] / scale; // exact
+                const bool depth = c == depth_index || c == far_index;
+                if (mask + whole / 2 < whole) return clear();
+                t.stored[c] = static_cast<storage>(depth ? sums[c] / mask : (sums[c] / scale + whole / 2) / whole);
+            }
+        }
+        return t;
     }
 
     friend constexpr bool operator==(const texel& a, const texel& b) noexcept {
@@ -115,6 +159,10 @@ using rg8 = texel<unorm8>;
 using rg16 = texel<unorm16>;
 using rg16f = texel<half16>;
 using rg32f = texel<float32>;
+
+/// t and m, see depth_ratio.
+using tm8 = texel<unorm8, depth_ratio>;
+using tm16 = texel<unorm16, depth_ratio>;
 
 using rgb8 = texel<unorm8, depth_mask, effects{.far_bound = true}>;
 using rgb16 = texel<unorm16, depth_mask, effects{.far_bound = true}>;

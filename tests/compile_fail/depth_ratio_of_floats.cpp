@@ -1,0 +1,10 @@
+// expect: gnomon: depth_ratio is for unorm8 and unorm16; half16 and float32 keep a depth's precision in depth_mask already
+#include <gnomon/texel/texel.hpp>
+
+#if GNOMON_EXPECT_FAILURE
+using channel = gnomon::half16;
+#else
+using channel = gnomon::unorm16;
+#endif
+
+auto made = gnomon::texel<channel, gnomon::depth_ratio>::clear();

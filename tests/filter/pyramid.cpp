@@ -1,0 +1,263 @@
+// Mip levels: each texel by the definition, sparse equals dense, and how far the roundings add up (h16).
+#include <gnomon/backend/scalar.hpp>
+#include <gnomon/filter/pyramid.hpp>
+#include <gnomon/receive/depth_error.hpp>
+
+#include "../support/bits.hpp"
+#include "../support/filtering.hpp"
+#include "../support/formats.hpp"
+#include "../support/sweep.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+using namespace gnomon;
+using test::dice;
+using test::sweep;
+
+#define EVERY_KIND                                                                                                                 \
+    rg8, rg16, rg16f, rg32f, tm8, tm16, rgba8, rgba16f, test::ratio_rgba16, test::paper8, test::paper16f, test::paper_rgba32f
+
+namespace {
+
+template <typename Texel> pyramid<Texel> built(const image<Texel>& base, const tile_grid& tiles) {
+    pyramid<Texel> mips(base.size(), tiles.tile());
+    mips.build(base.view(), tiles);
+    return mips;
+}
+template <typename Texel> pyramid<Texel> built(const image<Texel>& base) { // of the whole map
+    tile_grid all(base.size(), 8);
+    all.mark(whole(base.size()));
+    return built(base, all);
+}
+
+template <typename Texel> image_view<const Texel> level(const image<Texel>& base, const pyramid<Texel>& mips, int l) {
+    return l == 0 ? base.view() : mips.level(l);
+}
+
+template <typename Texel> int differences(const pyramid<Texel>& a, const pyramid<Texel>& b) {
+    if (a.coarsest() != b.coarsest()) return -1;
+    int n = 0;
+    for (int l = 1; l <= a.coarsest(); ++l) n += test::differences(a.level(l), b.level(l), whole(a.level(l).size()));
+    return n;
+}
+
+} // namespace
+
+TEST_CASE("a level has half the texels of the one below rounded up until there is one") {
+    CHECK(half_size({1024, 512}) == extent{512, 256});
+    CHECK(half_size({5, 1}) == extent{3, 1});
+    CHECK(half_size({1, 1}) == extent{1, 1});
+    CHECK(half_size({0, 7}) == extent{});
+    CHECK(half_size({-4, 4}) == extent{});
+    CHECK(half_size({2147483647, 2}) == extent{1073741824, 1});
+
+    CHECK(pyramid<rg8>({1024, 1}, 8).coarsest() == 10);
+    CHECK(pyramid<rg8>({5, 9}, 8).coarsest() == 4); // 5x9 3x5 2x3 1x2 1x1
+    CHECK(pyramid<rg8>({5, 9}, 8).size() == extent{5, 9});
+    CHECK(pyramid<rg8>({1, 1}, 8).coarsest() == 0);
+    CHECK(pyramid<rg8>({7, 0}, 8).coarsest() == 0);
+    CHECK(pyramid<rg8>({-7, 7}, 8).coarsest() == 0);
+    CHECK(pyramid<rg8>().coarsest() == 0);
+}
+
+TEST_CASE_TEMPLATE("a texel of a level is the mean of four below - exact and rounded once - and beyond an odd edge lies clear",
+                   Texel, EVERY_KIND) {
+    dice roll(61);
+    sweep wrong;
+    for (int round = 0; round < 30; ++round) {
+        image<Texel> base = test::noise<Texel>(roll, {roll(1, 33), roll(1, 21)}, 2);
+        if (round % 2 == 0) base = test::dense<binomial<2>>(base);
+        const pyramid<Texel> mips = built(base);
+        for (int l = 1; l <= mips.coarsest(); ++l) {
+            const image_view<const Texel> below = level(base, mips, l - 1), here = mips.level(l);
+            test::for_each_texel(whole(here.size()), [&](int x, int y) {
+                // box<1> cannot say "2 x 2", so the definition stands here once more, in double: exact for all of these numbers
+                double sums[static_cast<std::size_t>(Texel::channels)]{};
+                for (const int i : {0, 1})
+                    for (const int j : {0, 1}) {
+                        const bool inside = whole(below.size()).contains(2 * x + i, 2 * y + j);
+                        const Texel t = inside ? below(2 * x + i, 2 * y + j) : Texel::clear();
+                        for (int c = 0; c < Texel::channels; ++c) {
+                            const double code = static_cast<double>(Texel::channel_type::code(t.stored[c]));
+                            const bool depth = c == Texel::depth_index || c == Texel::far_index;
+                            const bool weighted = !Texel::representation_type::premultiplied && depth;
+                            sums[c] += code * (weighted ? static_cast<double>(Texel::channel_type::code(t.stored[1])) : 1.0);
+                        }
+                    }
+                Texel expected{};
+                const double mask = sums[1];
+                for (int c = 0; c < Texel::channels; ++c) {
+                    const bool depth = c == Texel::depth_index || c == Texel::far_index;
+                    if (Texel::representation_type::premultiplied || !depth)
+                        expected.stored[c] = Texel::channel_type::store(sums[c] / 4.0);
+                    else
+                        expected.stored[c] = static_cast<typename Texel::storage>(mask > 0.0 ? std::floor(sums[c] / mask) : 0.0);
+                }
+                if (!Texel::representation_type::premultiplied && !expected.occupied()) expected = Texel::clear();
+                wrong.unless(here(x, y) == expected, "level", l, "at", x, y);
+            });
+        }
+    }
+    CHECK(wrong.report() == "");
+}
+
+TEST_CASE_TEMPLATE("levels built from the marked tiles have the bits of those built from the whole map, frame after frame", Texel,
+                   EVERY_KIND) {
+    dice roll(62);
+    for (int map = 0; map < 6; ++map) {
+        const extent size{roll(1, 90), roll(1, 70)};
+        const int tile = roll(1, 20);
+        pyramid<Texel> sparse(size, tile);
+        for (int frame = 0; frame < 12; ++frame) {
+            image<Texel> base(size, Texel::clear());
+            tile_grid tiles(size, tile);
+            for (int n = roll(0, 3); n > 0; --n) {
+                const texel_rect r = clip(roll.rect(size, 4), size);
+                base.view().fill(r, test::any_caster<Texel>(roll));
+                tiles.mark(r);
+            }
+            sparse.build(base.view(), tiles);
+            CHECK(differences(sparse, built(base)) == 0);
+        }
+    }
+}
+
+TEST_CASE_TEMPLATE("clear stays clear and a full map full, to the last level", Texel, EVERY_KIND) {
+    for (const Texel& texel : {Texel::clear(), Texel::caster(0.375f)}) {
+        const pyramid<Texel> mips = built(image<Texel>({64, 64}, texel));
+        for (int l = 1; l <= mips.coarsest(); ++l)
+            test::for_each_texel(whole(mips.level(l).size()), [&](int x, int y) { CHECK(mips.level(l)(x, y) == texel); });
+    }
+}
+
+#ifdef NDEBUG
+TEST_CASE("without asserts, a map of another size or with other tiles builds nothing") {
+    pyramid<rg8> mips({32, 32}, 8);
+    const image<rg8> full({32, 32}, rg8::caster(0.5f)), smaller({32, 31}, rg8::caster(0.5f));
+    const auto marked = [](extent size, int tile) {
+        tile_grid tiles(size, tile);
+        tiles.mark(whole(size));
+        return tiles;
+    };
+    mips.build(smaller.view(), marked({32, 32}, 8));
+    mips.build(full.view(), marked({32, 31}, 8));
+    mips.build(full.view(), marked({32, 32}, 4));
+    CHECK(mips.level(5)(0, 0) == rg8::clear());
+    mips.build(full.view(), marked({32, 32}, 8));
+    CHECK(mips.level(5)(0, 0) == rg8::caster(0.5f));
+}
+#endif
+
+TEST_CASE("h16_mip_chain_drift: l levels keep the mask within l/2 codes and the worst map reaches that exactly") {
+    // Top down: a texel v of level l is the mean of two of v and two of v - 1 below it, which is v - 1/2 and rounds up.
+    constexpr int levels = 7, side = 1 << levels;
+    for (const int top : {20, 200}) {
+        image<rg8> base({side, side});
+        double exact = 0.0;
+        test::for_each_texel(whole(base.size()), [&](int x, int y) {
+            int v = top;
+            for (int l = 0; l < levels; ++l) v -= ((x >> l) ^ (y >> l)) & 1;
+            base(x, y) = rg8{{static_cast<std::uint8_t>(v / 2), static_cast<std::uint8_t>(v)}};
+            exact += v;
+        });
+        exact /= side * side;
+        const pyramid<rg8> mips = built(base);
+        CHECK(mips.coarsest() == levels);
+        CHECK(mips.level(levels)(0, 0).stored[1] == top);
+        CHECK(exact == doctest::Approx(top - levels / 2.0));
+    }
+}
+
+TEST_CASE_TEMPLATE("h16_mip_chain_drift: l levels keep the depth within (l+1)(1+t)/(2M) and no receiver before it is shadowed",
+                   Texel, rg8, rg16, rg16f, rg32f, tm8, tm16) {
+    using channel_type = typename Texel::channel_type;
+    dice roll(63);
+    sweep depth, shadowed;
+    double worst = 0.0, drift = 0.0;
+    int texels = 0;
+    for (int round = 0; round < 120; ++round) {
+        const extent size{64, 64};
+        image<Texel> casters(size, Texel::clear());
+        const float s = roll.unit();
+        for (int n = roll(1, 40); n > 0; --n) casters.view().fill(roll.rect(size, 0), Texel::caster(s));
+        image<double> exact(size); // the mask without any rounding
+        const test::taps k = test::taps_of<binomial<3>>();
+        test::for_each_texel(whole(size), [&](int x, int y) {
+            exact(x, y) = test::convolved<double>(casters, k, x, y, 1) / (k.total * static_cast<double>(k.total));
+        });
+        const double t = read(Texel::caster(s)).depth() / filtered<Texel>::scale;
+        const image<Texel> soft = test::dense<binomial<3>>(casters);
+        const pyramid<Texel> mips = built(soft);
+        for (int l = 0; l <= mips.coarsest(); ++l) {
+            const int side = 1 << l;
+            test::for_each_texel(whole(level(soft, mips, l).size()), [&](int x, int y) {
+                const Texel texel = level(soft, mips, l)(x, y);
+                if (!texel.occupied()) return;
+                double mask = 0.0;
+                test::for_each_texel({x * side, y * side, (x + 1) * side, (y + 1) * side},
+                                     [&](int i, int j) { mask += exact(i, j); });
+                mask /= side * side;
+                const double error = std::abs(static_cast<double>(caster_depth(texel)) - (1.0 - t));
+                const double bound = static_cast<double>(depth_error(texel, mip_roundings(l)));
+                depth.unless(error <= bound, "level", l, "at", x, y, "error", error, "bound", bound);
+                if (bound < 0.5) worst = greater(worst, error / bound);
+                const rule careful{.caster = {.roundings = mip_roundings(l)}};
+                shadowed.unless(test::same_bits(shadow(texel, s, careful), 0.0f), "level", l, "at", x, y, "s", s);
+                if (channel_type::whole_codes && l == 6) {
+                    drift += static_cast<double>(channel_type::code(texel.stored[1])) - mask;
+                    ++texels;
+                }
+            });
+        }
+    }
+    CHECK(depth.report() == "");
+    CHECK(shadowed.report() == "");
+    MESSAGE("largest share of the bound: " << worst << ", mean drift of the mask at level 6: " << drift / greater(texels, 1));
+    if (Texel::representation_type::premultiplied)
+        CHECK(worst > (channel_type::whole_codes ? 0.98 : 0.35)); // few floats come near it
+    if (channel_type::whole_codes) {
+        CHECK(drift / texels > 0.0); // halves go up
+        CHECK(drift / texels < 6.0 / 8.0);
+    }
+}
+
+TEST_CASE_TEMPLATE("at a whole lod a sample is the sample of that level and between two it is their blend, exactly", Texel, rg8,
+                   rgba16, rg16f, tm8) {
+    dice roll(64);
+    const image<Texel> base = test::dense<binomial<2>>(test::noise<Texel>(roll, {40, 24}, 2));
+    const pyramid<Texel> mips = built(base);
+    sweep wrong;
+    for (int i = 0; i < 20'000; ++i) {
+        const float x = 48.0f * roll.unit() - 4.0f, y = 32.0f * roll.unit() - 4.0f;
+        const int part = roll.one_in(3) ? 0 : roll(0, 255), l = roll(0, mips.coarsest() - 1);
+        const float size = std::ldexp(1.0f, -l);
+        const filtered<Texel> f = sample(base.view(), mips, x, y, static_cast<float>(l) + static_cast<float>(part) / 256.0f);
+        const filtered<Texel> fine = sample(level(base, mips, l), x * size, y * size),
+                              coarse = sample(level(base, mips, l + 1), x * size / 2.0f, y * size / 2.0f);
+        for (int c = 0; c < Texel::channels; ++c) {
+            const double expected = fine.code[c] + part * (coarse.code[c] - fine.code[c]) / 256.0; // exact: these are short numbers
+            wrong.unless(test::same_bits(f.code[c], expected), "level", l, "part", part, "at", x, y, "channel", c);
+        }
+        wrong.unless(f.depth() >= 0.0 && f.depth() <= f.mask(), "e > m at", x, y);
+    }
+    CHECK(wrong.report() == "");
+}
+
+TEST_CASE("a lod below 0 or NaN is level 0 and one beyond the last is the last") {
+    dice roll(65);
+    const image<rg8> base = test::noise<rg8>(roll, {32, 32}, 2);
+    const pyramid<rg8> mips = built(base);
+    const auto same = [](const filtered<rg8>& a, const filtered<rg8>& b) {
+        return test::same_bits(a.code[0], b.code[0]) && test::same_bits(a.code[1], b.code[1]);
+    };
+    for (const float lod : {-1.0f, -0.0f, -test::infinity<float>, test::nan<float>})
+        CHECK(same(sample(base.view(), mips, 7.3f, 9.1f, lod), sample(base.view(), 7.3f, 9.1f)));
+    for (const float lod : {5.0f, 5.5f, 1e9f, test::infinity<float>})
+        CHECK(same(sample(base.view(), mips, 7.3f, 9.1f, lod), sample(mips.level(5), 7.3f / 32.0f, 9.1f / 32.0f)));
+    CHECK(same(sample(base.view(), mips, test::nan<float>, 9.1f, 1.0f), read(rg8::clear())));
+    CHECK(same(sample(base.view(), pyramid<rg8>(), 3.3f, 3.3f, 4.0f), sample(base.view(), 3.3f, 3.3f)));
+}
