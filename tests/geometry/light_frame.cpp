@@ -126,6 +126,39 @@ TEST_CASE("the clip matrix of a frame draws what the frame says, rebased in a wo
             }
 }
 
+TEST_CASE("a sheared frame sees every point where the frame does, at the sheared depth, and so does its clip matrix") {
+    dice roll{std::mt19937_64(6)};
+    const spot_light lamp{
+        .position = {1, 9, 2}, .direction = {0.1, -1, 0}, .outer_angle = 0.7, .near_plane = 0.5, .far_plane = 20.0};
+    directional_light sun({0.3, -1.0, 0.2});
+    sun.add_caster(bounding_box{{-3, -1, -3}, {3, 4, 3}});
+    for (const light_frame& light : {lamp.frame(map_size, 4), sun.frame(map_size, 4)}) {
+        REQUIRE(light.valid());
+        for (int i = 0; i < 300; ++i) {
+            const auto a = static_cast<float>(roll(0.0, 1.0)), b = static_cast<float>(roll(0.0, 1.0));
+            const depth_shear shear{{lesser(a, b), greater(a, b)}};
+            if (shear.span() < 0.01f) continue;
+            const light_frame sheared = light.sheared(shear.casters);
+            REQUIRE(sheared.valid());
+            CHECK(sheared.perspective() == light.perspective());
+            const glm::dvec3 p = roll.vector(6.0);
+            const map_point before = light.to_map(p), after = sheared.to_map(p);
+            if (!before.in_front()) continue;
+            const double expected = (before.depth - static_cast<double>(shear.casters.nearest)) / static_cast<double>(shear.span());
+            CHECK(distance(after, {before.x, before.y, expected}) < 1e-9);
+            if (light.perspective() && !(expected > 0.01)) continue; // no GPU draws what lies before its near plane
+            const glm::vec4 local(glm::vec3(p), 1.0f);
+            const map_point drawn = viewport(glm::dvec4(sheared.clip_matrix({}) * local), map_size, {});
+            CHECK(std::abs(drawn.x - before.x) + std::abs(drawn.y - before.y) < 0.05);
+            CHECK(std::abs(static_cast<double>(glm::dot(sheared.depth_plane(), local)) - expected) < 1e-3);
+        }
+    }
+    const light_frame light = lamp.frame(map_size, 4);
+    CHECK(light.sheared({}).matrix() == light.matrix());
+    CHECK_FALSE(light.sheared({-1.0f, 0.5f}).valid()); // begins behind the lamp
+    CHECK_FALSE(light_frame().sheared({0.25f, 0.5f}).valid());
+}
+
 TEST_CASE("h17: at an offset of 1e6 m a world position is within 1e-6 texel of where it is at the origin, at 1e9 m within 1e-3") {
     dice roll{std::mt19937_64(4)};
     const extent size{2048, 2048};
