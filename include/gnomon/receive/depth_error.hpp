@@ -10,7 +10,8 @@ namespace gnomon {
 /// Whole codes: k (1+t)/(2M), M the stored mask code, at the largest reversed depth t that this pair can come from, which is
 /// k (1+e/m)/(2M-k); half and float: 2^-10 t and 2^-23 t, while m is not subnormal; depth_ratio: one code. 1 at an empty mask or
 /// NaN, which know nothing. Never exceeded by a footprint that holds one depth, and reached. What a caster's depth lost when it was
-/// stored comes on top: caster_depth_error. A blended sample is as good as the texels it is blended from.
+/// stored comes on top, caster_depth_error; only the code of a depth_ratio has it in it, for a lone caster. A blended sample is as
+/// good as the texels it is blended from.
 template <texel_format Texel> [[nodiscard]] constexpr float depth_error(const filtered<Texel>& texel, int roundings = 1) noexcept {
     using representation_type = typename Texel::representation_type;
     using channel_type = typename Texel::channel_type;
