@@ -92,7 +92,7 @@ static_assert(!backend_for<near_miss::only_rg8, gnomon::rg16, box<1>> && !backen
 } // namespace
 
 TEST_CASE_TEMPLATE("the scalar backend is the free functions", Texel, rg8, gnomon::rgba16, gnomon::rgb16f, gnomon::rga32f,
-                   test::paper32f) {
+                   test::ratio_rgba8, test::paper32f) {
     test::dice roll(121);
     const auto casters = test::noise<Texel>(roll, {40, 30}, 4);
     const image<Texel> soft = test::dense<binomial<2>>(casters);

@@ -1,4 +1,4 @@
-// expect: gnomon: depth_ratio is for unorm8 and unorm16; half16 and float32 keep a depth's precision in depth_mask already
+// expect: gnomon: depth_ratio is for unorm8 and unorm16
 #include <gnomon/texel/texel.hpp>
 
 #if GNOMON_EXPECT_FAILURE

@@ -1,4 +1,4 @@
-// expect: gnomon: no mask is enough to tell so many depths apart in this texel; take unorm16, float32 or depth_ratio, or fewer
+// expect: gnomon: no mask is enough to tell so many depths apart in this texel
 #include <gnomon/receive/depth_error.hpp>
 
 #if GNOMON_EXPECT_FAILURE

@@ -73,7 +73,7 @@ TEST_CASE("the ten lines print what they say") {
 }
 
 TEST_CASE_TEMPLATE("maps of nothing, of one texel, of one row, and smaller than their kernel take every call", Texel, gnomon::rg8,
-                   gnomon::rgba16, gnomon::rgba32f, test::paper8) {
+                   gnomon::rgba16, gnomon::rgba32f, gnomon::tm8, test::paper8) {
     for (const extent size : {extent{0, 0}, {0, 9}, {9, 0}, {-5, -7}, {1, 1}, {65, 1}, {1, 65}, {5, 4}})
         for (const int tile : {1, 32, highest}) {
             soft_shadow_map<Texel, gnomon::gaussian<16>> map({size.width, size.height, tile});
@@ -140,7 +140,7 @@ TEST_CASE("a caster of no depth lies at the far plane, one beyond the planes on 
 }
 
 TEST_CASE_TEMPLATE("opacity is the intensity of an opaque caster's shadow, in umbra and penumbra", Texel, gnomon::rga8,
-                   gnomon::rga16, gnomon::rga16f, gnomon::rgba32f) {
+                   gnomon::rga16, gnomon::rga16f, gnomon::rgba32f, test::ratio_rgba16) {
     dice roll(141);
     for (const float opacity : {0.0f, 0.25f, 0.5f, 1.0f, 2.0f, -1.0f, no_depth}) {
         map_of<Texel> map({.width = 40, .height = 30, .tile = 8}), opaque({.width = 40, .height = 30, .tile = 8});
@@ -159,7 +159,7 @@ TEST_CASE_TEMPLATE("opacity is the intensity of an opaque caster's shadow, in um
 }
 
 TEST_CASE_TEMPLATE("a far bound ends the shadow at the first receiver, and only where one was drawn", Texel, gnomon::rgb8,
-                   gnomon::rgb16, gnomon::rgba16f, gnomon::rgba32f) {
+                   gnomon::rgb16, gnomon::rgba16f, gnomon::rgba32f, test::ratio_rgba8) {
     map_of<Texel> map({.width = 60, .height = 30, .tile = 8});
     map.cast({5, 5, 50, 25}, 0.3f);
     map.bound({0, 0, 30, 30}, 0.6f);
@@ -255,7 +255,7 @@ TEST_CASE_TEMPLATE("what is drawn into cast is what casters and mark make by han
 }
 
 TEST_CASE_TEMPLATE("sample, receive and receive_row give the bits of the one-point forms", Texel, gnomon::rg8, gnomon::rgba16,
-                   gnomon::rgb16f, gnomon::rga32f, test::paper32f) {
+                   gnomon::rgb16f, gnomon::rga32f, test::ratio_rgba16, test::paper32f) {
     dice roll(142);
     map_of<Texel> map({.width = 50, .height = 40, .tile = 8});
     map.cast(whole(map.size()), 0.4f); // so that no row is lit, the first and the last neither
@@ -336,7 +336,7 @@ TEST_CASE_TEMPLATE("clear forgets every caster, but the filtered map stays reada
 }
 
 TEST_CASE_TEMPLATE("filter has no memory: twice is once, and casting between two adds", Texel, gnomon::rg8, gnomon::rgba16,
-                   gnomon::rgb32f, test::paper8) {
+                   gnomon::rgb32f, gnomon::tm16, test::paper8) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         dice roll(144 + seed), again(144 + seed);
         map_of<Texel> twice({.width = 50, .height = 40, .tile = 8}), once = twice;

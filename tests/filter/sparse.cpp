@@ -32,7 +32,7 @@ template <gnomon::kernel Kernel, typename Texel> image<Texel> sparse(const image
 } // namespace
 
 TEST_CASE_TEMPLATE("for each of the 512 patterns of 3 x 3 tiles, sparse equals dense", Texel, gnomon::rg8, gnomon::rgba16,
-                   gnomon::rgb16f, gnomon::rga32f, test::paper8, test::paper32f) {
+                   gnomon::rgb16f, gnomon::rga32f, gnomon::tm8, test::ratio_rgba16, test::paper8, test::paper32f) {
     constexpr extent size{14, 13};
     constexpr int tile = 5; // the last ones are cut off
     dice roll(101);

@@ -19,11 +19,12 @@ using namespace gnomon;
 using test::sweep;
 
 #define EVERY_TEXEL                                                                                                                \
-    rg8, rg16, rg16f, rg32f, rgb8, rgb16, rgb16f, rgb32f, rga8, rga32f, rgba8, rgba16, rgba16f, rgba32f, test::paper8,             \
-        test::paper16, test::paper16f, test::paper32f, test::paper_rgba8, test::paper_rgba16, test::paper_rgba16f,                 \
-        test::paper_rgba32f
+    rg8, rg16, rg16f, rg32f, rgb8, rgb16, rgb16f, rgb32f, rga8, rga32f, rgba8, rgba16, rgba16f, rgba32f, tm8, tm16,                \
+        test::ratio_rgba8, test::ratio_rgba16, test::paper8, test::paper16, test::paper16f, test::paper32f, test::paper_rgba8,     \
+        test::paper_rgba16, test::paper_rgba16f, test::paper_rgba32f
 #define EVERY_FULL_TEXEL                                                                                                           \
-    rgba8, rgba16, rgba16f, rgba32f, test::paper_rgba8, test::paper_rgba16, test::paper_rgba16f, test::paper_rgba32f
+    rgba8, rgba16, rgba16f, rgba32f, test::ratio_rgba8, test::ratio_rgba16, test::paper_rgba8, test::paper_rgba16,                 \
+        test::paper_rgba16f, test::paper_rgba32f
 
 // Of the representation concept a model and two near misses. (Not in the unnamed namespace: nobody calls their members.)
 namespace representation_models {
@@ -71,7 +72,8 @@ static_assert(texel_format<rg8> && texel_format<test::paper_rgba32f>);
 static_assert(!texel_format<looks_like_a_texel> && !texel_format<const rg8> && !texel_format<rg8&> && !texel_format<std::uint8_t> &&
               !texel_format<unorm8>);
 
-static_assert(representation<depth_mask> && representation<paper_depth_mask> && representation<representation_models::can_clear>);
+static_assert(representation<depth_mask> && representation<depth_ratio> && representation<paper_depth_mask> &&
+              representation<representation_models::can_clear>);
 static_assert(!representation<representation_models::may_throw> && !representation<representation_models::cannot_clear>);
 static_assert(!representation<unorm8> && !representation<void>);
 
@@ -117,7 +119,7 @@ template <typename Texel> std::vector<Texel> some_casters() {
 
 TEST_CASE_TEMPLATE("a clear texel is all zero and the paper's is one where depths are", Texel, EVERY_TEXEL) {
     const Texel clear = Texel::clear();
-    const bool complement = std::is_same_v<typename Texel::representation_type, depth_mask>;
+    const bool complement = !std::is_same_v<typename Texel::representation_type, paper_depth_mask>;
     for (int c = 0; c < Texel::channels; ++c) {
         const bool depth = c == Texel::depth_index || c == Texel::far_index;
         CHECK(test::equal(number(clear, c), depth && !complement ? 1.0 : 0.0));
@@ -128,15 +130,16 @@ TEST_CASE_TEMPLATE("a clear texel is all zero and the paper's is one where depth
 
 TEST_CASE_TEMPLATE("a caster stores its depth in its own way and a full mask", Texel, EVERY_TEXEL) {
     using channel_type = typename Texel::channel_type;
-    const bool complement = std::is_same_v<typename Texel::representation_type, depth_mask>;
+    const bool complement = !std::is_same_v<typename Texel::representation_type, paper_depth_mask>;
     test::float_dice dice(4);
     sweep wrong;
     for (int i = 0; i < 10'000; ++i) {
         const float s = dice.any_unit();
         const Texel t = Texel::caster(s);
         const double stored = complement ? 1.0 - static_cast<double>(s) : static_cast<double>(s);
-        bool good = t.stored[Texel::depth_index] >= channel_type::encode(stored) &&
-                    t.stored[Texel::depth_index] <= channel_type::encode(stored);
+        const auto nearest = channel_type::encode(stored); // a ratio rounds down: depth_ratio.cpp
+        bool good = !Texel::representation_type::premultiplied ||
+                    (t.stored[Texel::depth_index] >= nearest && t.stored[Texel::depth_index] <= nearest);
         good = good && t.occupied() && test::equal(number(t, Texel::mask_index), 1.0);
         if constexpr (Texel::effects.far_bound)
             good = good && test::equal(number(t, Texel::far_index), number(Texel::clear(), Texel::far_index));
@@ -239,7 +242,7 @@ TEST_CASE_TEMPLATE("bound ignores receivers before the caster and texels without
 }
 
 TEST_CASE_TEMPLATE("h11_far_bound_keeps_order: a receiver behind its caster is never stored before it", Texel, rgb8, rgb16, rgb16f,
-                   rgb32f, test::paper_rgba8, test::paper_rgba16f, test::paper_rgba32f) {
+                   rgb32f, test::ratio_rgba8, test::ratio_rgba16, test::paper_rgba8, test::paper_rgba16f, test::paper_rgba32f) {
     using representation_type = typename Texel::representation_type;
     test::float_dice dice(11);
     sweep wrong;

@@ -100,7 +100,7 @@ template <typename T, texel_format Texel>
     requires std::same_as<std::remove_const_t<T>, Texel>
 [[nodiscard]] filtered<Texel> sample(image_view<T> map, const pyramid<Texel>& mips, float x, float y, float lod) noexcept {
     constexpr int steps = 256;
-    const double bounded = lod > 0.0f ? lesser<double>(lod, mips.coarsest()) : 0.0;
+    const double bounded = lod > 0.0f ? lesser(static_cast<double>(lod), static_cast<double>(mips.coarsest())) : 0.0;
     const int fixed = detail::floor_to_int(bounded * steps + 0.5), fine = fixed / steps, part = fixed % steps;
     const auto at = [&](int l) {
         const float size = 1.0f / static_cast<float>(1 << l); // a power of two: scales exactly
