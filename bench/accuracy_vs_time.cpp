@@ -148,6 +148,8 @@ using paper8 = texel<unorm8, paper_depth_mask>;
 using paper16f = texel<half16, paper_depth_mask>;
 
 GNOMON_BENCH_FORMAT(rg8);
+GNOMON_BENCH_FORMAT(tm8);
+GNOMON_BENCH_FORMAT(tm16);
 GNOMON_BENCH_FORMAT(rgba8);
 GNOMON_BENCH_FORMAT(rg16);
 GNOMON_BENCH_FORMAT(rg16f);
