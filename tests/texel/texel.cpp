@@ -240,22 +240,3 @@ TEST_CASE_TEMPLATE("bound ignores receivers before the caster and texels without
     t.bound(0.5f); // what it lies on
     CHECK(t.stored[Texel::far_index] == t.stored[Texel::depth_index]);
 }
-
-TEST_CASE_TEMPLATE("h11_far_bound_keeps_order: a receiver behind its caster is never stored before it", Texel, rgb8, rgb16, rgb16f,
-                   rgb32f, test::ratio_rgba8, test::ratio_rgba16, test::paper_rgba8, test::paper_rgba16f, test::paper_rgba32f) {
-    using representation_type = typename Texel::representation_type;
-    test::float_dice dice(11);
-    sweep wrong;
-    for (int i = 0; i < 300'000; ++i) {
-        const float s = i % 2 == 0 ? dice.unit() : dice.any_unit();
-        const float step = dice.any_unit() * (i % 3 == 0 ? 1.0f : 0x1p-12f);
-        const float f = lesser(s + step, 1.0f);
-        Texel t = Texel::caster(s);
-        t.bound(f);
-        const auto depth = t.stored[Texel::depth_index], bound = t.stored[Texel::far_index];
-        const auto receiver = representation_type::template encode<typename Texel::channel_type>(f);
-        wrong.unless(!representation_type::nearer(bound, depth), "s", s, "f", f);
-        wrong.unless(bound >= receiver && bound <= receiver, "not stored: s", s, "f", f);
-    }
-    CHECK(wrong.report() == "");
-}
