@@ -1,9 +1,9 @@
-# --exhaustive: the test cases that visit a whole domain. They live beside their quick versions, are skipped there, and have names that
-# begin with "exhaustive". One at a time, for each uses all processors; built as users build, by g++ for any x86-64, Release.
+# --exhaustive: the test cases that visit a whole domain. They live beside their quick versions, are skipped there, and have names
+# that begin with "exhaustive". One at a time, for each uses all processors; built as users build: by g++, Release, for any x86-64.
 run_lane() {
     need_packages "${base_packages[@]}"
     local folders folder names name
-    folders=$(grep -l 'TEST_CASE.*"exhaustive' tests/*/*.cpp | cut -d / -f 2 | sort -u)
+    folders=$(grep -l '"exhaustive: ' tests/*/*.cpp | cut -d / -f 2 | sort -u)
     heading "configure and build"
     if ! cmake --preset quick -DGNOMON_EXAMPLES=OFF -B build/exhaustive ||
         ! cmake --build build/exhaustive -j "$jobs" --target $(printf 'gnomon_tests_%s ' $folders); then
