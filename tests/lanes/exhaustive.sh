@@ -1,1 +1,27 @@
-run_lane() { skip exhaustive "not written yet"; }
+# --exhaustive: the test cases that visit a whole domain. They live beside their quick versions, are skipped there, and have names
+# that begin with "exhaustive". One at a time, for each uses all processors; built as users build: by g++, Release, for any x86-64.
+run_lane() {
+    need_packages "${base_packages[@]}"
+    local folders folder names name
+    folders=$(grep -l '"exhaustive: ' tests/*/*.cpp | cut -d / -f 2 | sort -u)
+    heading "configure and build"
+    if ! cmake --preset quick -DGNOMON_EXAMPLES=OFF -B build/exhaustive ||
+        ! cmake --build build/exhaustive -j "$jobs" --target $(printf 'gnomon_tests_%s ' $folders); then
+        row exhaustive 0 1 0 "$SECONDS" "does not build"
+        return
+    fi
+    for folder in $folders; do
+        names=$("build/exhaustive/tests/gnomon_tests_$folder" -ltc -ns -tc='exhaustive*' | grep '^exhaustive')
+        while read -r name; do scan_row "$folder" "$name"; done <<<"$names"
+    done
+}
+
+# scan_row FOLDER NAME: runs one test case; what it says of its progress is shown, and the last of it, "N cases", is noted.
+scan_row() {
+    heading "$1: $2"
+    local began=$SECONDS log=build/exhaustive/scan.log status=0 cases
+    "build/exhaustive/tests/gnomon_tests_$1" -ns -tc="${2//,/\\,}" 2>&1 | tee "$log" || status=1
+    grep -q 'test cases: 1 | 1 passed' <(tr -s ' ' <"$log") || status=1 # a name that is not found passes nothing
+    cases=$(sed -n 's/^\([0-9]*\) cases$/\1/p' "$log" | tail -n 1)
+    row "$1" $((1 - status)) "$status" 0 $((SECONDS - began)) "${cases:-no} cases: ${2#exhaustive: }"
+}

@@ -38,18 +38,6 @@ template <typename Texel, typename F> double largest_share(int roundings, F&& fi
     return worst;
 }
 
-/// What is rounded, where a ratio has its exact sums.
-template <typename Texel> Texel filtered_once(const Texel& caster, int covered, int taps) {
-    if constexpr (Texel::channel_type::whole_codes) {
-        std::uint64_t sums[static_cast<std::size_t>(Texel::channels)];
-        for (int c = 0; c < Texel::channels; ++c)
-            sums[c] = static_cast<std::uint64_t>(covered) * caster.template linear<std::uint64_t>(c) +
-                      static_cast<std::uint64_t>(taps - covered) * Texel::clear().template linear<std::uint64_t>(c);
-        return Texel::from_linear(sums, static_cast<std::uint64_t>(taps));
-    }
-    return test::filtered(caster, covered, taps);
-}
-
 } // namespace
 
 TEST_CASE("depth_error is the farthest depth that each of the 32895 pairs of rg8 can come from, in rational numbers") {
@@ -70,7 +58,8 @@ TEST_CASE("depth_error is the farthest depth that each of the 32895 pairs of rg8
 
 TEST_CASE_TEMPLATE("one depth in the footprint comes back within depth_error of it and nearly that far off", Texel,
                    EVERY_PLAIN_TEXEL) {
-    const double worst = largest_share<Texel>(1, filtered_once<Texel>);
+    const double worst =
+        largest_share<Texel>(1, [](const Texel& caster, int covered, int taps) { return test::filtered(caster, covered, taps); });
     MESSAGE("largest share: " << worst);
     if (Texel::representation_type::premultiplied)
         CHECK(worst > (Texel::channel_type::whole_codes ? 0.99 : 0.4));
@@ -80,7 +69,7 @@ TEST_CASE_TEMPLATE("one depth in the footprint comes back within depth_error of 
 
 TEST_CASE_TEMPLATE("two roundings ask for two and nearly use them", Texel, EVERY_PLAIN_TEXEL) {
     const double worst = largest_share<Texel>(2, [](const Texel& caster, int covered, int taps) {
-        return filtered_once(filtered_once(caster, covered, taps), taps - taps / 3, taps);
+        return test::filtered(test::filtered(caster, covered, taps), taps - taps / 3, taps);
     });
     if (Texel::representation_type::premultiplied) CHECK(worst > 0.3);
 }
@@ -92,12 +81,9 @@ TEST_CASE_TEMPLATE("a ratio of two casters is within one code of their mean and 
     for (int i = 0; i <= 255; ++i)
         for (int share = 0; share <= 255; ++share) {
             const Texel a = Texel::caster(static_cast<float>(i) / 255.0f), b = Texel::caster(0.3f);
-            std::uint64_t sums[2];
-            for (int c = 0; c < 2; ++c)
-                sums[c] = static_cast<std::uint64_t>(share) * a.template linear<std::uint64_t>(c) +
-                          static_cast<std::uint64_t>(255 - share) * b.template linear<std::uint64_t>(c);
-            const Texel mean = Texel::from_linear(sums, std::uint64_t{400});
-            const double exact = 1.0 - static_cast<double>(sums[0]) / static_cast<double>(sums[1]);
+            const Texel mean = test::filtered(a, share, 255, b);
+            const double exact =
+                (share * static_cast<double>(caster_depth(a)) + (255 - share) * static_cast<double>(caster_depth(b))) / 255.0;
             const double error = static_cast<double>(caster_depth(mean)) - exact; // away from the light
             wrong.unless(error >= -0x1p-24 && error <= static_cast<double>(depth_error(mean)), "depth", i, "share", share);
             worst = greater(worst, error);

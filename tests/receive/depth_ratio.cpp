@@ -19,15 +19,6 @@ using test::sweep;
 
 namespace {
 
-/// The texel that a filter leaves of `covered` shares of one caster and `others` of another, out of `taps`.
-template <typename Texel> Texel mixed(const Texel& a, int covered, const Texel& b, int others, int taps) {
-    std::uint64_t sums[2];
-    for (int c = 0; c < 2; ++c)
-        sums[c] = static_cast<std::uint64_t>(covered) * a.template linear<std::uint64_t>(c) +
-                  static_cast<std::uint64_t>(others) * b.template linear<std::uint64_t>(c);
-    return Texel::from_linear(sums, static_cast<std::uint64_t>(taps));
-}
-
 /// At the threshold of a stored pair, z = 1 - T/N, and one float to each side: T > N (1-z) decides, whatever the mask.
 template <typename Texel> void try_threshold(int t, int m, sweep& wrong) {
     constexpr int scale = static_cast<int>(Texel::channel_type::scale);
@@ -65,7 +56,9 @@ TEST_CASE_TEMPLATE("no receiver at or before both of two casters is shadowed and
         const float a = dice.one_in(2) ? dice.unit() : dice.any_unit(), b = dice.one_in(3) ? a : dice.unit();
         const int taps = dice(1, 1089), covered = dice(0, taps), others = dice(0, taps - covered);
         if (covered == 0) continue;
-        const Texel texel = mixed(Texel::caster(a), covered, Texel::caster(b), others, taps);
+        const int casters = covered + others;
+        const Texel texel =
+            test::filtered(test::filtered(Texel::caster(a), covered, casters, Texel::caster(b)), casters, taps); // two passes
         if (!texel.occupied()) continue;
         const float nearest = others > 0 ? lesser(a, b) : a, farthest = others > 0 ? greater(a, b) : a;
         light.unless(test::same_bits(shadow(texel, nearest), 0.0f), "casters", a, b, "covered", covered, others, "of", taps);
@@ -83,7 +76,7 @@ TEST_CASE_TEMPLATE("towards light a ratio shadows from one code behind its caste
     double worst = 0.0;
     for (const float s : test::trying_depths<typename Texel::channel_type>(2047))
         for (const int covered : {1, 17, 289}) {
-            const Texel texel = mixed(Texel::caster(s), covered, Texel::clear(), 0, 289);
+            const Texel texel = test::filtered(Texel::caster(s), covered, 289);
             if (!texel.occupied()) continue;
             const double first = static_cast<double>(test::first_shadowed(texel, rule{}));
             const double share = (first - static_cast<double>(s)) / code;
@@ -102,7 +95,7 @@ TEST_CASE("16 bits a texel within .0011 of the float result once a receiver is o
     for (int i = 0; i < 200'000; ++i) {
         const float s = 0.9f * dice.unit(), z = s + 1.01f / 255.0f;
         const int covered = dice(1, 1000); // m uniform over the penumbra
-        const double soft = static_cast<double>(shadow(mixed(tm8::caster(s), covered, tm8::clear(), 0, 1000), z));
+        const double soft = static_cast<double>(shadow(test::filtered(tm8::caster(s), covered, 1000), z));
         const double exact = covered / 1000.0;
         square += (soft - exact) * (soft - exact);
         ++cases;
@@ -119,8 +112,8 @@ TEST_CASE_TEMPLATE("a blend of ratios is decided as sum w t m > r sum w m, and n
     for (int i = 0; i < 100'000; ++i) {
         image<Texel> map({2, 1}, Texel::clear());
         const float a = dice.unit(), b = dice.unit();
-        map(0, 0) = mixed(Texel::caster(a), dice(1, 9), Texel::clear(), 0, 9);
-        map(1, 0) = mixed(Texel::caster(b), dice(1, 9), Texel::clear(), 0, 9);
+        map(0, 0) = test::filtered(Texel::caster(a), dice(1, 9), 9);
+        map(1, 0) = test::filtered(Texel::caster(b), dice(1, 9), 9);
         const int u = dice(0, 256);
         const filtered<Texel> f = sample(map.view(), 0.5f + static_cast<float>(u) / 256.0f, 0.5f);
         const float z = dice.unit();

@@ -5,6 +5,7 @@
 #include "../support/float_dice.hpp"
 #include "../support/flush.hpp"
 #include "../support/formats.hpp"
+#include "../support/scan.hpp"
 #include "../support/sweep.hpp"
 
 #include <doctest/doctest.h>
@@ -49,7 +50,35 @@ template <typename Texel> void try_texel(const Texel& texel, std::size_t turn, s
     wrong.unless(s >= 0.0f && s <= 1.0f, "caster_depth", s, "from", texel.stored[0], texel.stored[1]);
 }
 
+/// All halves for a depth, under one for a mask: the first eight receivers under the three rules to use, and the depth they give.
+template <typename Texel> void try_mask(unsigned mask, sweep& wrong) {
+    wrong.unless_all([mask](auto&& check) {
+        for (unsigned depth = 0; depth < 0x10000; ++depth) {
+            const auto texel = read(Texel{{static_cast<std::uint16_t>(depth), static_cast<std::uint16_t>(mask)}});
+            const auto in_range = [&](float answer, float z) {
+                check(answer >= 0.0f && answer <= 1.0f, "z", z, "gives", answer, "from", depth, mask);
+            };
+            for (std::size_t i = 0; i < 8; ++i) {
+                const float z = receivers[i];
+                in_range(shadow(texel, z, rule{.caster = towards_light}), z);
+                in_range(shadow(texel, z, rule{.caster = unbiased}), z);
+                in_range(shadow(texel, z, rule{.caster = towards_shadow}), z);
+            }
+            in_range(caster_depth(texel), test::nan<float>);
+        }
+    });
+}
+
 } // namespace
+
+TEST_CASE("subnormals are flushed where a test asks for it and nowhere else") {
+    const volatile float least = 0x1p-126f;
+    for (const bool flush : {false, true}) {
+        const test::flush_subnormals mode(flush);
+        const volatile float half = least * 0.5f;
+        CHECK(test::same_bits(half, 0.0f) == (flush && test::can_flush));
+    }
+}
 
 TEST_CASE_TEMPLATE("no pair of halves gives an intensity outside of 0 to 1 whether or not subnormals are flushed", Texel, rg16f,
                    test::paper16f) {
@@ -62,6 +91,19 @@ TEST_CASE_TEMPLATE("no pair of halves gives an intensity outside of 0 to 1 wheth
                     try_texel(Texel{{static_cast<std::uint16_t>(e), static_cast<std::uint16_t>(m | sign)}}, e + m, wrong);
     }
     CHECK(wrong.report() == "");
+}
+
+TEST_CASE_TEMPLATE(
+    "exhaustive: none of the 2^32 pairs of halves gives an intensity outside of 0 to 1 whether or not subnormals are flushed" *
+        doctest::skip(),
+    Texel, rg16f, test::paper16f) {
+    const sweep wrong = test::scan(2 * 65536, [](int row, sweep& part) {
+        const test::flush_subnormals mode(row % 2 != 0);
+        void (*const volatile in_this_mode)(unsigned, sweep&) = &try_mask<Texel>; // volatile: so that no arithmetic leaves its mode
+        in_this_mode(static_cast<unsigned>(row / 2), part);
+    });
+    CHECK(wrong.report() == "");
+    CHECK(wrong.tried() == 2 * (8 * 3 + 1) * (std::size_t{1} << 32));
 }
 
 TEST_CASE_TEMPLATE("no four floats give an intensity outside of 0 to 1 whether or not subnormals are flushed", Texel, rgba32f,

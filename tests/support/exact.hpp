@@ -87,4 +87,24 @@ class exact_sum {
     return below <= 0 && above >= 0 && (even || (below < 0 && above > 0));
 }
 
+/// A positive normal float as significand / 2^shift.
+struct whole_parts {
+    std::int64_t significand;
+    int shift;
+};
+[[nodiscard]] constexpr whole_parts split(float v) noexcept {
+    const auto bits = std::bit_cast<std::uint32_t>(v);
+    return {static_cast<std::int64_t>((bits & 0x7FFFFF) | 0x800000), 150 - static_cast<int>(bits >> 23)};
+}
+
+/// Is `f` the float nearest to a / m, ties to even? In 64-bit integers, for scans.
+/// \pre 0 <= a <= m, 0 < m < 65536
+[[nodiscard]] constexpr bool is_nearest_share(float f, std::int64_t a, std::int64_t m) noexcept {
+    if (a == 0 || !(f >= 0x1p-17f && f <= 1.0f)) return a == 0 && same_bits(f, 0.0f);
+    const auto [significand, shift] = split(f);
+    const std::int64_t above = 4 * (significand * m - (a << shift));                     // of the quotient, in units of ulp / (4 m)
+    const std::int64_t to_below = significand == 0x800000 ? m : 2 * m, to_above = 2 * m; // half way to the neighbours
+    return (significand & 1) == 0 ? above <= to_below && -above <= to_above : above < to_below && -above < to_above;
+}
+
 } // namespace test

@@ -32,4 +32,26 @@ Number convolved(const gnomon::image<Texel>& from, const taps& k, int x, int y, 
     return sum;
 }
 
+/// A kernel in the hands of one who stores between the passes: every row is rounded to texels, then every column of those.
+/// Sums and quotients in double, whose own rounding is far below a texel's.
+template <gnomon::texel_format Texel> gnomon::image<Texel> twice_rounded(const gnomon::image<Texel>& from, const taps& k) {
+    const Texel clear = Texel::clear();
+    const auto pass = [&](const gnomon::image<Texel>& in, int right, int down) {
+        gnomon::image<Texel> out(in.size());
+        for_each_texel(whole(in.size()), [&](int x, int y) {
+            for (int c = 0; c < Texel::channels; ++c) {
+                double sum = 0.0;
+                for (int i = -k.radius; i <= k.radius; ++i) {
+                    const int column = x + i * right, row = y + i * down;
+                    const Texel& t = whole(in.size()).contains(column, row) ? in(column, row) : clear;
+                    sum += k.at(i) * static_cast<double>(Texel::channel_type::code(t.stored[c]));
+                }
+                out(x, y).stored[c] = Texel::channel_type::store(sum / k.total);
+            }
+        });
+        return out;
+    };
+    return pass(pass(from, 1, 0), 0, 1);
+}
+
 } // namespace test

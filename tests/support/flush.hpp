@@ -6,6 +6,8 @@
 
 namespace test {
 
+inline constexpr bool can_flush = true;
+
 class flush_subnormals {
   public:
     explicit flush_subnormals(bool on) noexcept : before_(_mm_getcsr()) {
@@ -22,6 +24,8 @@ class flush_subnormals {
 } // namespace test
 #else
 namespace test {
+
+inline constexpr bool can_flush = false;
 
 class flush_subnormals {
   public:

@@ -19,6 +19,26 @@ class sweep {
         if (holds) return;
         if (wrong_++ == 0) first_ = sentence(words...);
     }
+    /// The same for cases by the billion: `cases(check)` calls check(holds, words...) for each. They are only counted; words are
+    /// looked for in a second round, which begins if one is wrong.
+    template <typename Cases> void unless_all(const Cases& cases) {
+        std::size_t tried = 0, held = 0;
+        cases([&](bool holds, const auto&...) {
+            ++tried;
+            held += holds ? 1 : 0;
+        });
+        if (held == tried)
+            tried_ += tried;
+        else
+            cases([this](bool holds, const auto&... words) { this->unless(holds, words...); });
+    }
+    /// Another sweep's cases count as this one's.
+    void add(const sweep& other) {
+        if (wrong_ == 0) first_ = other.first_;
+        tried_ += other.tried_;
+        wrong_ += other.wrong_;
+    }
+    [[nodiscard]] std::size_t tried() const { return tried_; }
     /// Empty if every case held, and at least one was tried.
     [[nodiscard]] std::string report() const {
         if (tried_ == 0) return "no case was tried";
