@@ -61,7 +61,7 @@ template <typename Texel> struct scene {
 } // namespace
 
 TEST_CASE_TEMPLATE("a receiver that is culled is lit at every texel and between them, and many are culled", Texel, gnomon::rg16,
-                   gnomon::rg32f, gnomon::rg8) {
+                   gnomon::rg32f, gnomon::rg8, gnomon::tm8) {
     dice roll(111);
     constexpr gnomon::rule careful = gnomon::rule{}, exact = gnomon::rule{.caster = gnomon::unbiased};
     int lost = 0, culled = 0, culled_by_depth = 0, shadowed = 0, asked = 0;

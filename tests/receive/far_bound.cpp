@@ -16,7 +16,8 @@ using namespace gnomon;
 using test::sweep;
 
 #define EVERY_BOUNDED_TEXEL                                                                                                        \
-    rgb8, rgb16, rgb16f, rgb32f, test::paper_rgba8, test::paper_rgba16, test::paper_rgba16f, test::paper_rgba32f
+    rgb8, rgb16, rgb16f, rgb32f, test::ratio_rgba8, test::ratio_rgba16, test::paper_rgba8, test::paper_rgba16,                     \
+        test::paper_rgba16f, test::paper_rgba32f
 
 namespace {
 
@@ -113,7 +114,7 @@ TEST_CASE_TEMPLATE("a far bound depth pushes the bound away from the light", Tex
 }
 
 TEST_CASE_TEMPLATE("a translucent caster shadows with its opacity times the share of the footprint it covers", Texel, rga8, rga32f,
-                   rgba16, rgba16f, test::paper_rgba8) {
+                   rgba16, rgba16f, test::ratio_rgba8, test::paper_rgba8) {
     sweep wrong;
     for (const float opacity : {0.0f, 0.25f, 0.5f, 1.0f})
         for (int covered = 1; covered <= 9; ++covered) {
@@ -128,7 +129,7 @@ TEST_CASE_TEMPLATE("a translucent caster shadows with its opacity times the shar
     CHECK(wrong.report() == "");
 }
 
-TEST_CASE_TEMPLATE("lit_beyond lights what is behind the far plane and nothing before it", Texel, rg8, rg32f, rgba16,
+TEST_CASE_TEMPLATE("lit_beyond lights what is behind the far plane and nothing before it", Texel, rg8, rg32f, rgba16, tm8,
                    test::paper8) {
     rule r = rule{};
     const Texel texel = Texel::caster(0.25f);

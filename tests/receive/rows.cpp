@@ -44,7 +44,7 @@ static_assert(!texel_row<std::vector<float>> && !texel_row<std::vector<unorm8>>)
 } // namespace
 
 TEST_CASE_TEMPLATE("a row of receivers equals each receiver alone and the shortest span counts", Texel, rg8, rg16f, rgba16, rgba32f,
-                   test::paper8) {
+                   tm8, test::paper8) {
     sweep wrong;
     for (const int texels : {0, 1, 5, 64})
         for (const int depths : {0, 1, 7, 64})
@@ -101,7 +101,7 @@ TEST_CASE_TEMPLATE("of three images the texels that all have are received", Texe
     CHECK(wrong.report() == "");
 }
 
-TEST_CASE_TEMPLATE("receivers anywhere equal a sample and a decision and off the map they are lit", Texel, rg8, rgba16f,
+TEST_CASE_TEMPLATE("receivers anywhere equal a sample and a decision and off the map they are lit", Texel, rg8, rgba16f, tm16,
                    test::paper8) {
     test::float_dice dice(93);
     const image<Texel> map = test::noise<Texel>(dice, {7, 6}, 2);
