@@ -150,7 +150,7 @@ TEST_CASE_TEMPLATE("before its rounding, a float sum really uses the 2^-35 it is
 }
 
 TEST_CASE_TEMPLATE("after any filter 0 <= e <= m, and no far bound lies before its caster", Texel, gnomon::rgb8, gnomon::rgba16,
-                   gnomon::rgb16f, gnomon::rgba32f) {
+                   gnomon::rgb16f, gnomon::rgba32f, test::ratio_rgba8, test::ratio_rgba16) {
     dice roll(65);
     for (int i = 0; i < 30; ++i) {
         auto from = test::noise<Texel>(roll, {17, 14}, roll(1, 8));
@@ -169,7 +169,7 @@ TEST_CASE_TEMPLATE("after any filter 0 <= e <= m, and no far bound lies before i
                 for_each_texel(whole(to.size()), [&](int x, int y) {
                     const auto t = read(to(x, y));
                     wrong += !(0.0 <= t.far_bound() && t.far_bound() <= t.depth() && t.depth() <= t.mask() &&
-                               t.mask() <= static_cast<double>(Texel::channel_type::scale));
+                               t.mask() <= gnomon::filtered<Texel>::scale);
                 });
             CHECK(wrong == 0);
         });
@@ -177,7 +177,7 @@ TEST_CASE_TEMPLATE("after any filter 0 <= e <= m, and no far bound lies before i
 }
 
 TEST_CASE_TEMPLATE("a region is filtered as the whole map is, nothing outside it is written, and the scratch may hold anything",
-                   Texel, gnomon::rg8, gnomon::rgba16, gnomon::rgb16f, gnomon::rg32f) {
+                   Texel, gnomon::rg8, gnomon::rgba16, gnomon::rgb16f, gnomon::rg32f, test::ratio_rgba16) {
     dice roll(70);
     const image<Texel> untouched({29, 21}, Texel::caster(0.123f));
     for (int i = 0; i < 60; ++i) {
