@@ -26,35 +26,38 @@ struct raw_mesh {
     std::vector<std::uint32_t> indices;
 };
 
-/// The vertices of an OBJ file, which tinyobjloader would round to float, and take for 0 where they are no numbers.
-std::vector<glm::dvec3> read_positions(const std::string& file) {
-    std::vector<glm::dvec3> positions;
-    std::ifstream lines(file);
-    std::string line;
-    for (int number = 1; std::getline(lines, line); ++number) {
-        if (line.find('v') == std::string::npos) continue;
-        std::istringstream words(line);
-        std::string key;
-        glm::dvec3 p(0.0);
-        if (!(words >> key) || key != "v") continue;
-        if (!(words >> p.x >> p.y >> p.z))
-            throw failure("cannot read the mesh '" + file + "': line " + std::to_string(number) +
-                          " is a vertex without three finite numbers");
-        positions.push_back(p);
-    }
-    return positions;
+failure unreadable(const std::string& name, const std::string& why) {
+    return failure("cannot read the mesh '" + name + "': " + why);
 }
 
-raw_mesh read(const std::string& file) {
-    std::error_code error;
-    if (!std::filesystem::exists(file, error)) throw failure("cannot read the mesh '" + file + "': there is no such file");
-    if (std::filesystem::is_directory(file, error)) throw failure("cannot read the mesh '" + file + "': it is a folder");
-    raw_mesh raw{read_positions(file), {}};
+/// Triangles from the vertices and faces of an OBJ file.
+///
+/// tinyobjloader sees no other line: for a `vw` line it casts whatever number is there to int. The vertices are read here, since it
+/// would round them to float, and take for 0 what is no number.
+raw_mesh read(const std::string& name, const std::string& text) {
+    raw_mesh raw;
+    std::string vertices_and_faces;
+    int number = 1;
+    for (std::size_t at = 0, next = 0; at < text.size(); at = next, ++number) {
+        const std::size_t end = (std::min)(text.find_first_of("\r\n", at), text.size());
+        next = end + (text.compare(end, 2, "\r\n") == 0 ? 2 : 1);
+        const std::size_t key = text.find_first_not_of(" \t", at);
+        if (key >= end || (text[key] != 'v' && text[key] != 'f')) continue;
+        if (key + 1 < end && text[key + 1] != ' ' && text[key + 1] != '\t') continue; // vn, vt and others
+        const std::string line = text.substr(key, end - key);
+        vertices_and_faces.append(line).push_back('\n');
+        if (line[0] != 'v') continue;
+        std::istringstream words(line.substr(1));
+        glm::dvec3 p(0.0);
+        if (!(words >> p.x >> p.y >> p.z))
+            throw unreadable(name, "line " + std::to_string(number) + " is a vertex without three finite numbers");
+        raw.positions.push_back(p);
+    }
     tinyobj::ObjReaderConfig config;
     config.vertex_color = false;
     tinyobj::ObjReader reader;
-    if (!reader.ParseFromFile(file, config) || reader.GetAttrib().vertices.size() != 3 * raw.positions.size())
-        throw failure("cannot read the mesh '" + file + "': it is no OBJ file that can be opened and parsed");
+    if (!reader.ParseFromString(vertices_and_faces, {}, config) || reader.GetAttrib().vertices.size() != 3 * raw.positions.size())
+        throw unreadable(name, "it is no OBJ file that can be opened and parsed");
     for (const tinyobj::shape_t& shape : reader.GetShapes())
         for (const tinyobj::index_t& index : shape.mesh.indices)
             raw.indices.push_back(static_cast<std::uint32_t>(index.vertex_index));
@@ -113,7 +116,18 @@ mesh normalised(const std::string& name, raw_mesh raw) {
 
 } // namespace
 
-mesh load_obj(const std::string& file) { return normalised(file, read(file)); }
+mesh parse_obj(const std::string& name, const std::string& text) { return normalised(name, read(name, text)); }
+
+mesh load_obj(const std::string& file) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) throw unreadable(file, "there is no such file");
+    if (std::filesystem::is_directory(file, error)) throw unreadable(file, "it is a folder");
+    const std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw unreadable(file, "it is no OBJ file that can be opened and parsed");
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return parse_obj(file, text.str());
+}
 
 mesh torus_knot() {
     constexpr std::uint32_t along = 400, around = 32;

@@ -20,6 +20,9 @@ struct mesh {
 /// The mesh of an OBJ file, whatever its size and place. Throws `failure`, in one sentence, if there is no mesh in it.
 [[nodiscard]] mesh load_obj(const std::string& file);
 
+/// The same from the text of such a file; `name` is what a failure calls it.
+[[nodiscard]] mesh parse_obj(const std::string& name, const std::string& text);
+
 /// A trefoil tied in a tube: as intermingled a silhouette as one could wish, and no file needed.
 [[nodiscard]] mesh torus_knot();
 
