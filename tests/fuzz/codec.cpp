@@ -128,9 +128,7 @@ template <texel_format Texel> void cast_and_bound(fuzz::bytes& in) {
             for (const surface& r : receivers) t.bound(r.z);
         return t;
     };
-    const auto stored = [](float z) {
-        return channel_type::code(channel_type::encode(representation_type::stored_depth(static_cast<double>(z))));
-    };
+    const auto stored = [](float z) { return channel_type::code(representation_type::template encode<channel_type>(z)); };
 
     const Texel drawn = draw();
     demand(drawn.occupied() == !casters.empty(), "a texel is occupied if something was cast");
@@ -212,11 +210,25 @@ template <channel C> void decided(fuzz::bytes& in) {
     if constexpr (C::whole_codes) {
         const int k = in.within(0, 4);
         const bias b{.roundings = k, .caster_is_code = in.flip()};
-        const float moved = z - (b.caster_is_code ? 0.0f : caster_depth_error<Texel>); // in float, as bias.hpp says
+        const float moved = z - (b.caster_is_code ? 0.0f : caster_depth_error<Texel>.nearer); // in float, as bias.hpp says
         const bool behind = asked && truth(depth - 0.5 * k, mask + 0.5 * k, moved);
         demand((shadow(t, z, rule{.caster = b}) > 0.0f) == behind, "E - k/2 > (M + k/2) (1 - (z - h)), exactly");
     }
     if (m > 0.0f) demand(test::is_nearest_depth(caster_depth(t), e, m), "a caster's depth is correctly rounded");
+}
+
+/// An un-premultiplied pair decides by its depth alone, T > N (1-z), and its rounding of a caster goes one way.
+template <channel C> void ratio(fuzz::bytes& in) {
+    using Texel = texel<C, depth_ratio, all>;
+    cast_and_bound<Texel>(in);
+    guarded<Texel>(in);
+    const auto t = any_texel<texel<C, depth_ratio>>(in);
+    const float z = in.any_float(), s = in.any_float();
+    if (!(std::abs(z) < test::infinity<float>)) return;
+    const bool behind =
+        test::exactly_behind(static_cast<double>(C::code(t.stored[0])), static_cast<double>(C::scale), static_cast<double>(z));
+    demand((shadow(t, z) > 0.0f) == (C::code(t.stored[1]) > 0.0f && z > 0.0f && behind), "a ratio is decided exactly");
+    demand(!(s <= 1.0f) || !(shadow(Texel::caster(s), s) > 0.0f), "a receiver on its caster is lit");
 }
 
 void lightmap(fuzz::bytes& in) {
@@ -241,6 +253,9 @@ template <channel C> void with_channel(int what, fuzz::bytes& in) {
     case 4: return guarded<texel<C, depth_mask, all>>(in);
     case 5: return guarded<texel<C, paper_depth_mask, all>>(in);
     case 6: return guarded<texel<C>>(in);
+    case 7:
+        if constexpr (C::whole_codes) return ratio<C>(in);
+        [[fallthrough]];
     default: return decided<C>(in);
     }
 }

@@ -118,14 +118,14 @@ template <typename Texel, kernel Kernel> void run(fuzz::bytes& in) {
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
             demand(same_bits(soft.view()(x, y), dense(x, y)), "sparse equals dense, bit for bit");
-            if (!keeps_order || !std::is_same_v<typename Texel::representation_type, depth_mask>) continue;
+            if (!keeps_order || std::is_same_v<typename Texel::representation_type, paper_depth_mask>) continue;
             const filtered<Texel> f = read(dense(x, y));
             demand(f.depth() >= 0.0 && f.depth() <= f.mask(), "a filter keeps e <= m");
             if constexpr (Texel::effects.far_bound)
                 demand(f.far_bound() <= f.depth(), "a filter keeps the far bound behind its caster");
         }
     demand(casters.gaps_are_untouched() && soft.gaps_are_untouched(), "what lies between the rows is neither read nor written");
-    if constexpr (Texel::channel_type::whole_codes)
+    if constexpr (Texel::channel_type::whole_codes && Texel::representation_type::premultiplied)
         if (!size.empty())
             for (int n = 0; n < 4; ++n) {
                 const int x = in.within(0, size.width - 1), y = in.within(0, size.height - 1);
@@ -175,11 +175,12 @@ template <typename Texel> void with_format(fuzz::bytes& in) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::bytes in(data, size);
-    switch (in.within(0, 4)) {
+    switch (in.within(0, 5)) {
     case 0: with_format<rg8>(in); break;
     case 1: with_format<rgba16>(in); break;
     case 2: with_format<rg16f>(in); break;
     case 3: with_format<rgb32f>(in); break;
+    case 4: with_format<texel<unorm16, depth_ratio, effects{.far_bound = true}>>(in); break;
     default: with_format<texel<unorm8, paper_depth_mask>>(in);
     }
     return 0;

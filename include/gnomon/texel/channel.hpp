@@ -60,7 +60,7 @@ template <typename Storage> struct unorm {
     [[nodiscard]] static constexpr storage encode(double v) noexcept {
         return static_cast<storage>(saturate(v) * static_cast<double>(scale) + 0.5);
     }
-    /// The storage of a code that is already in [0, scale], rounded to nearest, halves upwards.
+    /// The storage of a code that is already in [0, scale], rounded to nearest, halves upwards; a code within 2^-37 of a half may take either side.
     [[nodiscard]] static constexpr storage store(double code) noexcept { return static_cast<storage>(code + 0.5); }
     [[nodiscard]] static constexpr float code(storage c) noexcept { return static_cast<float>(c); }
     /// Correctly rounded: one division of two exact numbers.
