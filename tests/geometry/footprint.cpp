@@ -199,8 +199,9 @@ TEST_CASE("empty, absent and infinite bounds") {
                 bounding_sphere ball{{0, 0, 0}, 1.0};
                 ball.centre[axis] = not_a_number;
                 CHECK(footprint(ball, light).empty());
-                CHECK(box_around(ball).empty());
+                CHECK((box.empty() && ball.empty() && box_around(ball).empty()));
             }
+        CHECK(box_around(bounding_sphere{glm::dvec3(1e300), -1.0}).empty()); // where one more or less is the same
         CHECK(footprint(bounding_sphere{{0, 0, 0}, -1.0}, light).empty());
         CHECK(footprint(bounding_sphere{{0, 0, 0}, not_a_number}, light).empty());
         CHECK(footprint(bounding_box{glm::dvec3(-infinity), glm::dvec3(infinity)}, light) ==

@@ -233,7 +233,7 @@ TEST_CASE("h19: a degenerate light makes an invalid frame, before which nothing 
     frames.push_back(fit({0, -1, 0}, {glm::dvec3(0), {1e-321, 0, 0}}, size, 0)); // a depth cell is no double any more
     frames.push_back(fit({0, -1, 0}, box, {0, 0}, 0));
     frames.push_back(fit({0, -1, 0}, box, {1, 64}, 0));
-    frames.push_back(fit({0, -1, 0}, box, {64, 1}, 0));
+    frames.push_back(fit({0, -1, 0}, box, {64, 2}, 1));
     frames.push_back(fit({0, -1, 0}, box, size, 32));
     frames.push_back(fit({0, -1, 0}, box, size, std::numeric_limits<int>::max()));
 
