@@ -115,6 +115,27 @@ TEST_CASE("a gaussian of 50 percent keeps 14 percent of its peak at the rim, one
     CHECK(narrow_bells[32].at(32) * 100 / narrow_bells[32].at(0) == 1);
 }
 
+TEST_CASE("weights are apportioned at run time as by the compiler") {
+    const auto each = [](auto kernel, auto proportions) {
+        using K = decltype(kernel);
+        CHECK(gnomon::detail::apportion<K::radius>(proportions) == K::weights);
+    };
+    std::array<std::uint64_t, 10> row{}; // C(18, 9), C(18, 10), ...
+    row[9] = 1;
+    for (std::size_t i = 9; i > 0; --i) row[i - 1] = row[i] * (9 + i) / (10 - i);
+    each(binomial<9>{}, row);
+    std::array<double, 5> bell{}; // sigma is 2, so i * i / 8
+    for (int i = 0; i < 5; ++i) bell[static_cast<std::size_t>(i)] = gnomon::detail::exp_minus(i * i / 8.0);
+    each(gaussian<4>{}, bell);
+}
+
+TEST_CASE("what is left over after pairs goes to the centre, and the rest to the largest remainders") {
+    const std::array third{1.0, 1.0}; // 21845.33 each, so one unit is left
+    CHECK(gnomon::detail::apportion<1>(third) == std::array{21845, 21846, 21845});
+    const std::array fifth{1.0, 0.9, 1.1}; // 13107.2, 11796.48, 14417.92: three units are left
+    CHECK(gnomon::detail::apportion<2>(fifth) == std::array{14418, 11796, 13108, 11796, 14418});
+}
+
 TEST_CASE("exp_minus is the exponential to 2e-15") {
     long double worst = 0;
     for (int i = 0; i <= 60000; ++i) {

@@ -191,14 +191,30 @@ TEST_CASE("empty, absent and infinite bounds") {
     for (int i = 0; i < 30; ++i) {
         const light_frame light = any_light(roll, i);
         CHECK(footprint(bounding_box{{1, 1, 1}, {0, 2, 2}}, light).empty());
-        CHECK(footprint(bounding_box{{0, 0, not_a_number}, {1, 2, 2}}, light).empty());
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double bad : {3.0, not_a_number}) {
+                bounding_box box{{0, 0, 0}, {1, 2, 2}};
+                box.lower[axis] = bad;
+                CHECK(footprint(box, light).empty());
+                bounding_sphere ball{{0, 0, 0}, 1.0};
+                ball.centre[axis] = not_a_number;
+                CHECK(footprint(ball, light).empty());
+                CHECK((box.empty() && ball.empty() && box_around(ball).empty()));
+            }
+        CHECK(box_around(bounding_sphere{glm::dvec3(1e300), -1.0}).empty()); // where one more or less is the same
         CHECK(footprint(bounding_sphere{{0, 0, 0}, -1.0}, light).empty());
         CHECK(footprint(bounding_sphere{{0, 0, 0}, not_a_number}, light).empty());
-        CHECK(footprint(bounding_sphere{{0, not_a_number, 0}, 1.0}, light).empty());
         CHECK(footprint(bounding_box{glm::dvec3(-infinity), glm::dvec3(infinity)}, light) ==
               light_footprint{whole(map_size), {0.0f, 1.0f}});
         CHECK(footprint(bounding_sphere{{0, 0, 0}, infinity}, light) == light_footprint{whole(map_size), {0.0f, 1.0f}});
         CHECK(footprint(bounding_box{glm::dvec3(1e300), glm::dvec3(infinity)}, light).empty() ==
               footprint(bounding_box{glm::dvec3(1e30), glm::dvec3(1e30)}, light).empty());
     }
+}
+
+TEST_CASE("footprints are equal if and only if texels and depths are") {
+    const light_footprint one{{1, 2, 3, 4}, {0.25f, 0.5f}};
+    CHECK(one == light_footprint{{1, 2, 3, 4}, {0.25f, 0.5f}});
+    CHECK(one != light_footprint{{1, 2, 3, 5}, {0.25f, 0.5f}});
+    CHECK(one != light_footprint{{1, 2, 3, 4}, {0.25f, 0.75f}});
 }

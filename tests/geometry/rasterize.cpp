@@ -580,3 +580,10 @@ TEST_CASE("a view that is smaller than the map is its upper left part, and a par
     CHECK(wrong == 0);
     CHECK_FALSE(larger(100, 50).occupied());
 }
+
+TEST_CASE("a polygon keeps its first corners and writes no more than it has room for") {
+    detail::projected_polygon polygon;
+    for (int i = 0; i < detail::most_corners + 2; ++i) polygon.add(glm::dvec4(i));
+    CHECK(polygon.count == detail::most_corners);
+    for (int i = 0; i < polygon.count; ++i) CHECK(polygon.corner[i] == glm::dvec4(i));
+}

@@ -222,6 +222,18 @@ TEST_CASE("what the engine has no rule for is rejected: NaN and inverted rectang
     }
 }
 
+#ifdef NDEBUG
+TEST_CASE("a reference grid without a map takes no caster and knows no shadow") {
+    for (const extent none : {extent{}, extent{0, 512}, extent{512, -1}}) {
+        reference_grid grid(none, 1);
+        CHECK_FALSE(grid.cast({-5, -5, 9, 9}));
+        CHECK_FALSE(grid.receives({-5, -5, 9, 9}));
+        CHECK(rects_of(grid).empty());
+        CHECK(grid.blur_scissor() == texel_rect{});
+    }
+}
+#endif
+
 TEST_CASE("infinite and huge rectangles cover the map, and no setting overflows") {
     constexpr double inf = test::infinity<double>;
     for (const real_rect everything : {real_rect{-inf, -inf, inf, inf}, {-1e300, -1e300, 1e300, 1e300}, {-3e9, -3e9, 3e9, 3e9}})

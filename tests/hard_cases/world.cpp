@@ -201,6 +201,10 @@ TEST_CASE(
     spot([](spot_light& s) { s.far_plane = infinity; });
     spot([](spot_light& s) { s.far_plane = not_a_number; });
     for (const extent bad : {extent{0, 64}, extent{64, -1}, extent{2000000, 64}}) frames.push_back(good.frame(bad));
+    const int largest = light_frame::largest_side;
+    REQUIRE(light_frame(glm::dmat4(1.0), {largest, largest}, 1.0, 1.0).valid());
+    for (const extent bad : {extent{0, 64}, extent{64, 0}, extent{largest + 1, 64}, extent{64, largest + 1}})
+        frames.push_back(light_frame(glm::dmat4(1.0), bad, 1.0, 1.0));
     frames.push_back(good.frame(size, 32));
 
     const auto fit = [&](const glm::dvec3& direction, const bounding_box& box, extent s, int margin) {
@@ -217,8 +221,10 @@ TEST_CASE(
     frames.push_back(fit({0, -1, 0}, {glm::dvec3(not_a_number), glm::dvec3(1)}, size, 0));
     frames.push_back(fit({0, -1, 0}, {glm::dvec3(-infinity), glm::dvec3(1)}, size, 0));
     frames.push_back(fit({0, -1, 0}, {glm::dvec3(1), glm::dvec3(1)}, size, 0));
+    frames.push_back(fit({0, -1, 0}, {glm::dvec3(0), {1e-321, 0, 0}}, size, 0)); // a depth cell is no double any more
     frames.push_back(fit({0, -1, 0}, box, {0, 0}, 0));
     frames.push_back(fit({0, -1, 0}, box, {1, 64}, 0));
+    frames.push_back(fit({0, -1, 0}, box, {64, 2}, 1));
     frames.push_back(fit({0, -1, 0}, box, size, 32));
     frames.push_back(fit({0, -1, 0}, box, size, std::numeric_limits<int>::max()));
 
@@ -234,6 +240,7 @@ TEST_CASE(
     matrix(glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0.5, 0, -1.1, -1, 0, 0, -1, 0) * glm::dmat4(1.0)); // fine in depth
     frames.pop_back();
     matrix(glm::dmat4(1, 0, 0.5, 0, 0, 1, 0, 0, 0, 0, -1.1, -1, 0, 0, -1, 0)); // an oblique near plane
+    matrix(glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1.1, -1, 0, 0, 1, 0));    // a near plane behind the light
     frames.push_back(light_frame(glm::dmat4(1.0), size, 0.0, 1.0));
     frames.push_back(light_frame(glm::dmat4(1.0), size, 2.0, 1.0));
 
@@ -262,7 +269,7 @@ TEST_CASE(
         CHECK(rasterize({corners, indices}, light, everywhere, faces::both, [&](int, int, float) { ++drawn; }).empty());
         CHECK(drawn == 0);
     }
-    CHECK(frames.size() == 40);
+    CHECK(frames.size() == 47);
 }
 
 TEST_CASE("h19_degenerate_matrix_and_w: what is behind a spot light or beside it is nowhere and no divide sees its w") {

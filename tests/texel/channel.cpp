@@ -210,3 +210,14 @@ TEST_CASE("a hostile half is read as it is") {
     CHECK(test::same_bits(half16::decode(0xBC00), -1.0f));
     CHECK(test::same_bits(half16::decode(0x8000), -0.0f));
 }
+
+TEST_CASE_TEMPLATE("a pair's depth is rounded as its channel is, but the paper's by half an ulp of one", Channel, ALL_CHANNELS) {
+    gnomon::rounding_error (*ask)() noexcept = gnomon::depth_mask::depth_rounding<Channel>; // at run time
+    const gnomon::rounding_error own = ask();
+    CHECK(test::same_bits(own.relative, Channel::rounding.relative));
+    CHECK(test::same_bits(own.absolute, Channel::rounding.absolute));
+    ask = gnomon::paper_depth_mask::depth_rounding<Channel>;
+    const gnomon::rounding_error paper = ask();
+    CHECK(test::same_bits(paper.relative, 0.0f));
+    CHECK(test::same_bits(paper.absolute, Channel::whole_codes ? 0.5f : Channel::max_error));
+}

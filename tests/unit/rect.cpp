@@ -165,3 +165,18 @@ TEST_CASE("enclosing_texels moves sides beyond 2^30 to 2^30 and takes NaN for no
     CHECK(enclosing_texels(inf, 0.0, inf, 1.0) == texel_rect{});
     CHECK(enclosing_texels(1.0, 0.0, 0.0, 1.0) == texel_rect{});
 }
+
+TEST_CASE("extents and rectangles are equal if and only if every number is") {
+    CHECK(extent{3, 4} == extent{3, 4});
+    CHECK(extent{3, 4} != extent{4, 4});
+    CHECK(extent{3, 4} != extent{3, 3});
+    const int sides[4]{1, 2, 3, 4};
+    for (int i = 0; i < 4; ++i) {
+        int other[4]{1, 2, 3, 4};
+        CHECK(texel_rect{sides[0], sides[1], sides[2], sides[3]} == texel_rect{other[0], other[1], other[2], other[3]});
+        CHECK(tile_rect{sides[0], sides[1], sides[2], sides[3]} == tile_rect{other[0], other[1], other[2], other[3]});
+        ++other[i];
+        CHECK(texel_rect{sides[0], sides[1], sides[2], sides[3]} != texel_rect{other[0], other[1], other[2], other[3]});
+        CHECK(tile_rect{sides[0], sides[1], sides[2], sides[3]} != tile_rect{other[0], other[1], other[2], other[3]});
+    }
+}

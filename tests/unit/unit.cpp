@@ -51,3 +51,11 @@ TEST_CASE("a depth interval is empty until something is included and then holds 
     depths.include({0.0f, test::nan<float>});
     CHECK(depths == depth_interval{0.25f, 0.875f});
 }
+
+TEST_CASE("depth intervals are equal if and only if both ends are") {
+    const depth_interval depths{0.25f, 0.75f};
+    CHECK(depths == depth_interval{0.25f, 0.75f});
+    CHECK(depths != depth_interval{0.5f, 0.75f});
+    CHECK(depths != depth_interval{0.25f, 0.5f});
+    CHECK(depths != depth_interval{0.25f, test::nan<float>});
+}

@@ -167,7 +167,7 @@ light_footprint rasterize(const triangle_mesh& mesh, const light_frame& light, t
                           const Where& where = {}) {
     light_footprint touched;
     target = clip(target, light.size());
-    if (target.empty() || !light.valid()) return touched;
+    if (target.empty()) return touched; // so is an invalid frame's
     const glm::dmat4 to_map = light.matrix() * mesh.model;
     const double handedness = detail::volume(to_map);
 

@@ -38,7 +38,7 @@ class reference_grid {
 
     /// Marks a caster; false if it lies wholly off the map.
     bool cast(real_rect r) noexcept {
-        if (!(r.x0 <= r.x1 && r.y0 <= r.y1) || map_.empty()) return false;
+        if (!(r.x0 <= r.x1) || !(r.y0 <= r.y1) || map_.empty()) return false;
         if (r.x1 <= 0.0 || r.y1 <= 0.0 || r.x0 >= map_.width || r.y0 >= map_.height) return false;
         const real_rect inside{greater(r.x0, 0.0), greater(r.y0, 0.0), lesser(r.x1, 1.0 * map_.width),
                                lesser(r.y1, 1.0 * map_.height)};
@@ -52,7 +52,7 @@ class reference_grid {
 
     /// May the rectangle of a receiver lie in shadow?
     [[nodiscard]] bool receives(real_rect r) const noexcept {
-        if (!any_ || !(r.x0 <= r.x1 && r.y0 <= r.y1)) return false;
+        if (!any_ || !(r.x0 <= r.x1) || !(r.y0 <= r.y1)) return false;
         if (!(r.x1 >= box_.x0 - guard_ && r.y1 >= box_.y0 - guard_ && r.x0 <= box_.x1 + guard_ && r.y0 <= box_.y1 + guard_))
             return false;
         const tile_rect t = span_of(r);
