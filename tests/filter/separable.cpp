@@ -139,7 +139,7 @@ TEST_CASE_TEMPLATE("before its rounding, a float sum really uses the 2^-35 it is
     worst = 0;
     for (int i = 0; i < 100000; ++i) {
         const double v = 1.0 + static_cast<double>(roll.unit()) + static_cast<double>(roll.unit()) * 0x1p-24;
-        const double cut = gnomon::detail::to_36_bits(v);
+        const double cut = gnomon::detail::to_bits<36>(v);
         worst =
             std::max(worst, std::fabs(static_cast<long double>(cut) - static_cast<long double>(v)) / static_cast<long double>(v));
         CHECK_FALSE(std::fabs(cut * 65535.0 - static_cast<double>(static_cast<long double>(cut) * 65535.0L)) >

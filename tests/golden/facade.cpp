@@ -14,6 +14,7 @@ void print_facade() {
                           named<rg16>{"rg16"},
                           named<rgba16f>{"rgba16f"},
                           named<rgba32f>{"rgba32f"},
+                          named<tm8>{"tm8"},
                           named<paper<unorm8>>{"paper_rg8"},
                           named<paper<half16, both>>{"paper_rgba16f"}};
     const auto frames = []<texel_format T, kernel K>(named<T>, named<K>) {

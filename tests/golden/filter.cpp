@@ -3,7 +3,7 @@
 
 #include "../support/filtering.hpp"
 
-#include <gnomon/filter/sample.hpp>
+#include <gnomon/filter/pyramid.hpp>
 
 #include <array>
 #include <type_traits>
@@ -79,6 +79,23 @@ void print_filter() {
     print("filter_on_edge", "rg16f", "needle", hash_of_edges<rg16f, needle>());
     print("filter_on_edge", "rg32f", "needle", hash_of_edges<rg32f, needle>());
     print("filter_on_edge", "rg32f", "gaussian<8>", hash_of_edges<rg32f, gaussian<8>>());
+
+    print("mips", filtered_texels, []<texel_format T>(named<T>) {
+        test::dice roll(84);
+        const image<T> map = test::noise<T>(roll, {61, 47}, 3);
+        tile_grid tiles(map.size(), 16);
+        tiles.mark(whole(map.size()));
+        pyramid<T> mips(map.size(), 16);
+        mips.build(map.view(), tiles);
+        hash h;
+        for (int l = 1; l <= mips.coarsest(); ++l)
+            test::for_each_texel(whole(mips.level(l).size()), [&](int x, int y) { h.add(mips.level(l)(x, y)); });
+        for (int i = 0; i < 2'000; ++i) {
+            const float x = roll.unit() * 64.0f, y = roll.unit() * 64.0f, lod = roll.unit() * 8.0f; // exact products
+            for (const double code : sample(map.view(), mips, x, y, lod).code) h.add(code);
+        }
+        return h;
+    });
 
     print("sample", texels, []<texel_format T>(named<T>) {
         test::dice roll(83);

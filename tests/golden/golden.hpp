@@ -36,11 +36,12 @@ template <typename T> struct named {
 using namespace gnomon;
 inline constexpr effects plain{}, both{.far_bound = true, .translucency = true};
 template <channel Channel, effects Effects = plain> using paper = texel<Channel, paper_depth_mask, Effects>;
+template <channel Channel> using ratio = texel<Channel, depth_ratio, both>;
 
 inline constexpr std::tuple channels{named<unorm8>{"unorm8"}, named<unorm16>{"unorm16"}, named<half16>{"half16"},
                                      named<float32>{"float32"}};
 
-/// Every channel, both representations, every set of effects.
+/// Every channel, every representation, every set of effects.
 inline constexpr std::tuple texels{
     named<rg8>{"rg8"},
     named<rg16>{"rg16"},
@@ -58,6 +59,10 @@ inline constexpr std::tuple texels{
     named<rgba16>{"rgba16"},
     named<rgba16f>{"rgba16f"},
     named<rgba32f>{"rgba32f"},
+    named<tm8>{"tm8"},
+    named<tm16>{"tm16"},
+    named<ratio<unorm8>>{"ratio_rgba8"},
+    named<ratio<unorm16>>{"ratio_rgba16"},
     named<paper<unorm8>>{"paper_rg8"},
     named<paper<unorm16>>{"paper_rg16"},
     named<paper<half16>>{"paper_rg16f"},
@@ -74,6 +79,8 @@ inline constexpr std::tuple filtered_texels{
     named<rgba16>{"rgba16"},
     named<rgba16f>{"rgba16f"},
     named<rgba32f>{"rgba32f"},
+    named<ratio<unorm8>>{"ratio_rgba8"},
+    named<ratio<unorm16>>{"ratio_rgba16"},
     named<paper<unorm8, both>>{"paper_rgba8"},
     named<paper<unorm16, both>>{"paper_rgba16"},
     named<paper<half16, both>>{"paper_rgba16f"},

@@ -3,6 +3,7 @@
 
 #include "../support/images.hpp"
 
+#include <gnomon/receive/depth_error.hpp>
 #include <gnomon/receive/lightmap.hpp>
 #include <gnomon/receive/receive.hpp>
 
@@ -70,6 +71,15 @@ void print_receive() {
         test::dice roll(92);
         hash h;
         for (int i = 0; i < 10'000; ++i) h.add(caster_depth(any_texel<T>(roll)));
+        return h;
+    });
+    print("depth_error", texels, []<texel_format T>(named<T>) {
+        test::dice roll(95);
+        hash h;
+        for (int i = 0; i < 4'000; ++i) {
+            const T t = any_texel<T>(roll);
+            h.add(depth_error(t), depth_error(t, 3));
+        }
         return h;
     });
     print("shadow_towards_light", texels, []<texel_format T>(named<T>) { return decisions<T>({.caster = towards_light}); });

@@ -228,7 +228,7 @@ row_can_fail() {
         fi
     done <<'TABLE'
 texel|texel/channel.hpp|s/static_cast<float>(code) + 0.0f/static_cast<float>(code)/
-filter|filter/separable.hpp|s/line\[i\] = to_36_bits(line\[i\])/line[i] = line[i]/
+filter|filter/separable.hpp|s/line\[i\] = to_bits<36>(line\[i\])/line[i] = line[i]/
 texel|texel/half.hpp|s/rest == tie && (kept & 1) != 0/rest == tie/
 receive|texel/depth_mask.hpp|s/return select(.*/return e > m * (Real(1) - z);/
 TABLE

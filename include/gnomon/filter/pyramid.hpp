@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gnomon/filter/sample.hpp>
+#include <gnomon/filter/separable.hpp>
 #include <gnomon/grid/regions.hpp>
 
 #include <concepts>
@@ -94,8 +95,8 @@ template <texel_format Texel> class pyramid {
 
 /// Blended from the two levels around `lod`, four texels of each: at (x, y) in texels of the map. Level l is taken whole at lod = l.
 ///
-/// `lod` is limited to the levels there are, NaN is 0, and is taken to 1/256. Off the map lies clear. Exact for unorm and half, but
-/// for the last bit of a 16-bit ratio; keeps e <= m. A decision takes the roundings of the coarser level.
+/// `lod` is limited to the levels there are, NaN is 0, and is taken to 1/256. Off the map lies clear. Exact for unorm and half; float
+/// and 16-bit ratios to 2^-45; keeps e <= m. A decision takes the roundings of the coarser level.
 template <typename T, texel_format Texel>
     requires std::same_as<std::remove_const_t<T>, Texel>
 [[nodiscard]] filtered<Texel> sample(image_view<T> map, const pyramid<Texel>& mips, float x, float y, float lod) noexcept {
@@ -109,7 +110,9 @@ template <typename T, texel_format Texel>
     filtered<Texel> blend = at(fine);
     if (part == 0) return blend;
     const filtered<Texel> coarse = at(fine + 1);
-    for (int c = 0; c < Texel::channels; ++c) blend.code[c] = ((steps - part) * blend.code[c] + part * coarse.code[c]) / steps;
+    constexpr auto cut = [](double code) { return detail::to_bits<45>(code); }; // 8 bits are left for the weight
+    for (int c = 0; c < Texel::channels; ++c)
+        blend.code[c] = ((steps - part) * cut(blend.code[c]) + part * cut(coarse.code[c])) / steps;
     return blend;
 }
 

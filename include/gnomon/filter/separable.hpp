@@ -39,10 +39,11 @@ template <texel_format Texel, kernel Kernel> class filter_scratch {
 
 namespace detail {
 
-/// A double cut to 36 significant bits, to nearest, by integer arithmetic: times a weight of up to 2^16 it is then exact, so the
-/// second pass gives the same bits whether or not a compiler fuses its multiply and add. Monotone; relative error 2^-36.
-[[nodiscard]] constexpr double to_36_bits(double v) noexcept {
-    constexpr std::uint64_t dropped = (1u << 17) - 1;
+/// A double cut to so many significant bits, to nearest, by integer arithmetic: times a weight of the 53 - Bits that are left it is
+/// then exact, so a sum of such products has the same bits whether or not a compiler fuses multiply and add. Monotone; relative
+/// error 2^-Bits.
+template <int Bits> [[nodiscard]] constexpr double to_bits(double v) noexcept {
+    constexpr std::uint64_t dropped = (std::uint64_t{1} << (53 - Bits)) - 1;
     return std::bit_cast<double>((std::bit_cast<std::uint64_t>(v) + (dropped + 1) / 2) & ~dropped);
 }
 
@@ -73,7 +74,7 @@ void sum_columns(image_view<const Texel> from, int y, int x0, int x1, std::span<
         add(weight, inside1, x1, outside);
     }
     if constexpr (!Texel::channel_type::whole_codes)
-        for (std::size_t i = 0; i < static_cast<std::size_t>(x1 - x0) * channels; ++i) line[i] = to_36_bits(line[i]);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(x1 - x0) * channels; ++i) line[i] = to_bits<36>(line[i]);
 }
 
 /// The second pass and the one rounding: `width` texels out of a line that begins Kernel::radius columns before them.

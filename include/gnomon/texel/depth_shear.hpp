@@ -21,8 +21,11 @@ struct depth_shear {
     }
     /// A depth of the light as a depth of the texels; NaN stays NaN. Within 3 * 2^-24 of it, relatively, and monotone.
     [[nodiscard]] constexpr float operator()(float z) const noexcept { return (z - first()) / span(); }
-    /// And back, for tools.
-    [[nodiscard]] constexpr float inverse(float z) const noexcept { return first() + z * span(); }
+    /// And back, for tools. Correctly rounded.
+    [[nodiscard]] constexpr float inverse(float z) const noexcept {
+        return static_cast<float>(static_cast<double>(first()) +
+                                  static_cast<double>(z) * static_cast<double>(span())); // no product to fuse
+    }
 
   private:
     [[nodiscard]] constexpr float first() const noexcept { return casters.empty() ? 0.0f : casters.nearest; }
