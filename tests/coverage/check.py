@@ -194,7 +194,7 @@ def percent(part, whole):
 
 def table(headers):
     """Prints the table, before exclusions, and what MC/DC misses; returns the sums."""
-    print(f"{'':34}{'lines':>16}{'functions':>18}{'branches':>18}{'MC/DC':>18}")
+    print(f"{'':40}{'lines':>16}{'functions':>18}{'branches':>18}{'MC/DC':>18}")
     totals = [0] * 8
     for name, header in headers.items():
         conditions = header.conditions.values()
@@ -204,8 +204,8 @@ def table(headers):
                sum((c.true > 0) + (c.false > 0) for c in conditions), 2 * len(conditions),
                sum(measured.values()), len(measured)]
         totals = [a + b for a, b in zip(totals, row)]
-        print(f"{name:34}" + ("  ".join(percent(*row[i:i + 2]) for i in (0, 2, 4, 6)) if row[1] or row[3] else "  nothing that runs"))
-    print(f"{'all':34}" + "  ".join(percent(*totals[i:i + 2]) for i in (0, 2, 4, 6)))
+        print(f"{name:40}" + ("  ".join(percent(*row[i:i + 2]) for i in (0, 2, 4, 6)) if row[1] or row[3] else "  nothing that runs"))
+    print(f"{'all':40}" + "  ".join(percent(*totals[i:i + 2]) for i in (0, 2, 4, 6)))
     for name, header in headers.items():
         for place, independent in sorted(header.measured().items()):
             if not independent:

@@ -21,7 +21,7 @@ programs() {
 
 # build PRESET [TARGET...]: false, after a row that says so, if it does not build.
 build() {
-    local began=$SECONDS preset=$1 target
+    local began=$SECONDS preset=$1
     heading "$preset: configure and build"
     cmake --preset "$preset" && cmake --build --preset "$preset" -j "$jobs" ${2:+--target "${@:2}"} && return 0
     row "$preset" 0 1 0 $((SECONDS - began)) "does not build"
