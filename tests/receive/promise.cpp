@@ -36,9 +36,9 @@ template <typename Texel, typename F> void for_filtered_casters(F&& f) {
     }
 }
 
-/// The same where three roundings of a float format are all near their worst, one way or the other: the share of the footprint is half
-/// way between two codes, so is the caster's depth but for a float, and their product is left to chance. Relative errors are largest
-/// just above a power of two, or wherever `own` of `end_of_doubt` is.
+/// The same where three roundings of a float format are all near their worst, one way or the other: the share of the footprint is
+/// half way between two codes, so is the caster's depth but for a float, and their product is left to chance. Relative errors are
+/// largest just above a power of two, or wherever `own` of `end_of_doubt` is.
 template <typename Texel, typename F> void for_worst_casters(F&& f) {
     using channel_type = typename Texel::channel_type;
     constexpr int digits = std::is_same_v<channel_type, half16> ? 11 : 24;
