@@ -40,7 +40,7 @@ template <gnomon::texel_format Texel> [[nodiscard]] float first_shadowed(const T
 
 /// The depth from which a decision towards light is certain again: the band s..z holds all that may be wrong with the stored
 /// numbers, each rounding twice, once for what it did and once for the bias against it. Not linearised, so that it can be reached:
-///     z = 1 - (e - absolute) (1 - relative - own) / ((m' + absolute) (1 + relative + own)) + h,  of the worst e and m' to be stored
+///     z = 1 - (e - absolute) (1 - relative - own) / ((m' + absolute) (1 + relative + own)) + h,  of the worst e and m' stored
 /// For unorm that is s + q + q max((1+t)/(m+q), 1/m), but for q^2. `own` is what single precision adds: its share of the bias, and
 /// one rounding; which for float and m is less, since 1 + bias is no float there and is rounded down.
 template <gnomon::texel_format Texel> [[nodiscard]] double end_of_doubt(double s, double m) {
