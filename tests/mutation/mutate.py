@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Breaks include/gnomon one small piece at a time; each time some test must turn red.
 
 A mutant is a copy of one header with one change. The tests whose includes reach that header are compiled against it and run, one
@@ -34,6 +33,11 @@ def digest(*parts):
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
+def folder_of(header):
+    """Where its tests stand: gnomon/grid/bit_row.hpp is of grid, gnomon/rect.hpp of unit."""
+    return "unit" if header.count("/") == 1 else header.split("/")[1]
+
+
 class Test:
     """One source of tests/: which headers it reaches, how long it takes, how often it was asked and how often it found a mutant."""
 
@@ -45,12 +49,10 @@ class Test:
 
     def is_of(self, header):
         """Is this the file that is named after the header, or does it include it itself?"""
-        folder = "unit" if header.count("/") == 1 else header.split("/")[1]
-        return self.name == f"{folder}/{pathlib.Path(header).stem}.cpp" or header in self.names
+        return self.name == f"{folder_of(header)}/{pathlib.Path(header).stem}.cpp" or header in self.names
 
     def is_near(self, header):
-        """Does it stand in the header's folder, or name it?"""
-        return self.is_of(header) or self.name.split("/")[0] in header
+        return self.is_of(header) or self.name.startswith(folder_of(header) + "/")
 
     def promise(self, header):
         """Mutants of the header found per second, guessed from the names at first."""
@@ -66,6 +68,7 @@ class Tree:
         self.build.mkdir(parents=True, exist_ok=True)
         self.compiler = compiler
         self.headers = sorted(p.relative_to(self.include).as_posix() for p in self.include.rglob("*.hpp"))
+        self.text = {header: (self.include / header).read_text() for header in self.headers}
         self.sources = [Test(self, p) for p in sorted(self.tests.glob("*/*.cpp")) if p.parent.name not in ("compile_fail", "odr", "fuzz")]
         self.refusals = [Test(self, p) for p in sorted((self.tests / "compile_fail").glob("*.cpp"))]
         self.flavours, self.lock = {}, threading.Lock()
@@ -152,14 +155,14 @@ def prove(tree, test):
                 file.write(f"{test.key} {test.seconds:.2f}\n")
 
 
-def judge(tree, header, mutant):
+def judge(tree, header, mutant, near):
     """The answer for one mutant: the first test that turns red, or that none does."""
     with tempfile.TemporaryDirectory(dir=tree.build) as folder:
         work = pathlib.Path(folder)
         overlay = work / "include"
         (overlay / header).parent.mkdir(parents=True)
         (overlay / header).write_text(mutant.text)
-        concerned = tree.concerned(header)
+        concerned = {t for t in tree.concerned(header) if t.is_near(header) or not near}
         own = [t for t in concerned if t.is_of(header)]
         while concerned:
             test = max(concerned, key=lambda t: t.promise(header))
@@ -172,6 +175,8 @@ def judge(tree, header, mutant):
             if answer[0] != SURVIVED:
                 test.found[header] += 1
                 return answer
+        if near:
+            return SURVIVED, ""
         check = ["cmake", f"-DCOMPILE={tree.compiler};-std=c++20;-I{overlay};-I{tree.include}", "-P", tree.tests / "compile_fail/check.cmake"]
         for refusal in tree.refusals:
             if header in refusal.reaches and limited(120, [check[0], f"-DSOURCE={refusal.path}", *check[1:]]).returncode != 0:
@@ -223,13 +228,15 @@ def run(tree, given):
     answers, rows, lock, began = collections.defaultdict(list), {}, threading.Lock(), time.monotonic()
     state = {"done": 0, "new": 0, "shown": began}
 
+    def survivor_key(header):
+        return digest(header, str(given.near), *sorted(t.key for t in [*tree.concerned(header), *tree.refusals]))
+
     def one(job):
         header, mutant = job
-        text = (tree.include / header).read_text()
-        found_key, survived_key, name = digest(header, text), digest(header, *sorted(t.key for t in [*tree.concerned(header), *tree.refusals])), digest(mutant.text)
+        found_key, survived_key, name = digest(header, tree.text[header]), survivor_key(header), digest(mutant.text)
         old = kept.get((found_key, name)) or kept.get((survived_key, name))
         start = time.monotonic()
-        answer, said = old[:2] if old else judge(tree, header, mutant)
+        answer, said = old[:2] if old else judge(tree, header, mutant, given.near)
         seconds = old[2] if old else time.monotonic() - start
         with lock:
             if not old:
@@ -256,7 +263,7 @@ def run(tree, given):
         for _ in pool.map(one, wanted): # raises what a job raised
             pass
 
-    complete = {h for h in rows if sum(1 for w in wanted if w[0] == h) == len(mutants.mutants_of((tree.include / h).read_text()))}
+    complete = {h for h in rows if sum(1 for w in wanted if w[0] == h) == len(mutants.mutants_of(tree.text[h]))}
     stale = explained.stale(tree, answers, complete)
     print(f"\n{'':42}{'test':>7}{'compiler':>9}{'clock':>7}{'survived':>9}{'explained':>10}{'s each':>8}")
     lines = []
@@ -278,7 +285,7 @@ def chosen(tree, given):
                 or h.startswith(f"gnomon/{place.rstrip('/')}/")]
         if not here:
             raise SystemExit(f"mutate.py: no header is {place}")
-        wanted += [(h, m) for h in here for m in mutants.mutants_of((tree.include / h).read_text()) if line is None or m.line == int(line)]
+        wanted += [(h, m) for h in here for m in mutants.mutants_of(tree.text[h]) if line is None or m.line == int(line)]
     if given.sample:
         wanted = random.Random(given.seed).sample(wanted, min(given.sample, len(wanted)))
     return wanted
@@ -288,6 +295,7 @@ def main(line=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("only", nargs="*", metavar="PATH[:LINE]", help="headers or folders of include/; all of them if left out")
     parser.add_argument("--list", action="store_true", help="say how many mutants there are, and run none")
+    parser.add_argument("--near", action="store_true", help="ask the tests of the header's own folder alone: quick, to work on these")
     parser.add_argument("--sample", type=int, metavar="N", help="only N mutants, drawn by --seed")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1, metavar="N")

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """mutate.py must be able to find nothing: a project of one header, of which a test proves one half, and nothing the other."""
 import argparse
 import pathlib
