@@ -25,6 +25,7 @@ import time
 import mutants
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
+SANITIZERS = ("-DNDEBUG", "-fsanitize=address,undefined", "-fno-sanitize-recover=all") # asserts have had their say
 FAR = 3.0 # seconds of processor time that a test of another folder may take to be asked: what only such a one sees deserves a test of its own
 FOUND_BY_TEST, FOUND_BY_COMPILER, FOUND_BY_CLOCK, SURVIVED = "test", "compiler", "clock", "survived"
 
@@ -182,7 +183,7 @@ def judge(tree, header, mutant, near):
             if header in refusal.reaches and limited(120, [check[0], f"-DSOURCE={refusal.path}", *check[1:]]).returncode != 0:
                 return FOUND_BY_COMPILER, refusal.name
         for test in own:
-            answer = ask(tree, test, overlay, work, ("-fsanitize=address,undefined", "-fno-sanitize-recover=all"))
+            answer = ask(tree, test, overlay, work, SANITIZERS)
             if answer[0] != SURVIVED:
                 return answer
     return SURVIVED, ""
