@@ -61,16 +61,16 @@ struct tile_rect {
 namespace detail {
 inline constexpr int int_max = 2147483647;
 
+/// a + b, or the end of int that it would pass.
 [[nodiscard]] constexpr int saturating_add(int a, int b) noexcept {
-    constexpr int int_min = -int_max - 1;
-    if (b > 0) return a > int_max - b ? int_max : a + b;
-    return a < int_min - b ? int_min : a + b;
+    constexpr long long most = int_max;
+    return static_cast<int>(lesser(greater(1ll * a + b, -most - 1), most));
 }
 
 /// `v` no farther out than a map can reach: 2^30, so that a guard band cannot overflow.
 [[nodiscard]] constexpr double within_reach(double v) noexcept {
     constexpr double reach = 1073741824.0;
-    return v < -reach ? -reach : (v > reach ? reach : v);
+    return lesser(greater(-reach, v), reach);
 }
 
 [[nodiscard]] constexpr int floor_to_int(double v) noexcept {

@@ -99,6 +99,8 @@ TEST_CASE("the texel beside a footprint counts, because a blended sample reads i
     tiles.mark({16, 16, 24, 24}, {0.5f, 0.5f}, 0);
     CHECK(gnomon::casters_reach(tiles, {24, 16, 30, 20}));
     CHECK_FALSE(gnomon::casters_reach(tiles, {25, 16, 30, 20}));
+    CHECK(gnomon::casters_reach(tiles.tiles(), {24, 16, 30, 20}));
+    CHECK_FALSE(gnomon::casters_reach(tiles.tiles(), {25, 16, 30, 20}));
     CHECK(gnomon::casters_reach(tiles, {10, 24, 17, 30}));
     CHECK_FALSE(gnomon::casters_reach(tiles, {10, 25, 17, 30}));
     tiles.mark({0, 40, 1, 41}, {0.5f, 0.5f}, 0);

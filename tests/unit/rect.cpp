@@ -48,6 +48,7 @@ template <typename Holds> counted count(Holds holds) {
 /// Is `r` that set, and all zero if it is empty?
 bool is_set(texel_rect r, counted set) { return r == set.box && r.width() * r.height() == set.texels; }
 
+static_assert(extent{} == extent{0, 0} && tile_rect{} == tile_rect{0, 0, 0, 0} && texel_rect{} == texel_rect{0, 0, 0, 0});
 static_assert(intersection({0, 0, 4, 4}, {2, 2, 6, 6}) == texel_rect{2, 2, 4, 4});
 static_assert(grow({int_min, int_min, int_max, int_max}, int_max).x1 == int_max);
 static_assert(enclosing_texels(0.5, -0.5, 1.5, 2.0) == texel_rect{0, -1, 2, 2});
@@ -57,6 +58,7 @@ static_assert(enclosing_texels(test::nan<double>, 0, 1, 1).empty());
 
 TEST_CASE("an extent or rectangle is empty if and only if it holds no texel") {
     CHECK(extent{0, 5}.empty());
+    CHECK(extent{5, 0}.empty());
     CHECK(extent{5, -1}.empty());
     CHECK(!extent{1, 1}.empty());
     sweep wrong;

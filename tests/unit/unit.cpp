@@ -37,6 +37,7 @@ TEST_CASE("lesser and greater give the first of two that are equal or unordered"
 TEST_CASE("a depth interval is empty until something is included and then holds all of it") {
     depth_interval depths;
     CHECK(depths.empty());
+    CHECK(depths == depth_interval{1.0f, 0.0f});
     depths.include({});
     CHECK(depths.empty());
     depths.include({0.5f, 0.5f});

@@ -1,0 +1,93 @@
+// Every wrong call that a debug build hears of, beside the call next to it that is right. A program of its own, since the
+// assertion chosen here is compiled into the library's inline functions. tests/unit/assert.cpp says how one chooses.
+namespace {
+int failed = 0;
+const char* sentence_of_the_failed = "";
+} // namespace
+#define GNOMON_ASSERT(condition, sentence) ((condition) ? void() : (++failed, sentence_of_the_failed = (sentence), void()))
+#include <gnomon/backend/backend.hpp>
+#include <gnomon/backend/scalar.hpp>
+#include <gnomon/filter/separable.hpp>
+#include <gnomon/grid/reference_grid.hpp>
+#include <gnomon/grid/regions.hpp>
+#include <gnomon/grid/tile_grid.hpp>
+#include <gnomon/texel/image.hpp>
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+namespace {
+using namespace gnomon;
+using blur = box<1>;
+
+/// The one sentence since it was asked last, or nothing.
+std::string complaint() {
+    const std::string said = failed == 0 ? "" : failed == 1 ? sentence_of_the_failed : "more than one";
+    failed = 0;
+    return said;
+}
+} // namespace
+
+TEST_CASE("an image_view without memory or with rows askew is a wrong call") {
+    int memory[6]{};
+    (void)image_view<int>(memory, {3, 2});
+    (void)image_view<int>(nullptr, {0, 2});
+    (void)image_view<int>(memory, {1, 2}, -8);
+    CHECK(complaint() == "");
+    (void)image_view<int>(nullptr, {3, 2});
+    CHECK(complaint() == "gnomon: an image_view that is not empty needs memory");
+    (void)image_view<int>(memory, {1, 2}, 9);
+    CHECK(complaint() == "gnomon: the rows of an image_view must be aligned for its texels");
+}
+
+TEST_CASE("a grid of tiles below one texel and an engine's grid without a map are wrong calls") {
+    (void)tile_grid({8, 8}, 1);
+    (void)reference_grid({1, 1}, 0);
+    CHECK(complaint() == "");
+    (void)tile_grid({8, 8}, 0);
+    CHECK(complaint() == "gnomon: a tile is at least one texel wide");
+    (void)reference_grid({8, 0}, 0);
+    CHECK(complaint() == "gnomon: reference_grid needs a map");
+}
+
+TEST_CASE("a greedy merge with a word too little is a wrong call") {
+    const tile_grid grid({70, 3}, 1); // two words a row
+    std::vector<bit_word> scratch(6);
+    for_each_tile_rect_greedy(grid, scratch, [](tile_rect) {});
+    CHECK(complaint() == "");
+    scratch.pop_back();
+    for_each_tile_rect_greedy(grid, scratch, [](tile_rect) {});
+    CHECK(complaint() == "gnomon: the greedy merge needs a word of scratch for every word of the grid");
+}
+
+TEST_CASE("a filter into its own image or with too narrow a scratch is a wrong call unless there is nothing to filter") {
+    image<rg8> from({8, 2}, rg8::clear()), to = from;
+    filter_scratch<rg8, blur> scratch(8), narrow(7);
+    filter_region(from.view(), to.view(), {0, 0, 8, 2}, scratch);
+    filter_region(from.view(), to.view(), {0, 0, 7, 2}, narrow);
+    filter_region(from.view(), from.view(), {8, 0, 9, 2}, scratch);
+    filter_region(from.view(), to.view(), {8, 0, 9, 2}, narrow);
+    CHECK(complaint() == "");
+    filter_region(from.view(), from.view(), {0, 0, 8, 2}, scratch);
+    CHECK(complaint() == "gnomon: a filter reads one image and writes another");
+    filter_region(from.view(), to.view(), {0, 0, 8, 2}, narrow);
+    CHECK(complaint() == "gnomon: the filter's scratch is narrower than the region; make it for the map's width");
+}
+
+TEST_CASE("a filter of images and tiles that differ in size is a wrong call unless the grid has none") {
+    image<rg8> from({8, 2}, rg8::clear()), to = from, small({8, 1}, rg8::clear());
+    filter_scratch<rg8, blur> scratch(8);
+    const tile_grid tiles({8, 2}, 4);
+    filter(scalar{}, from.view(), to.view(), tiles, scratch);
+    filter(scalar{}, small.view(), to.view(), tile_grid(), scratch);
+    CHECK(complaint() == "");
+    const std::string sentence = "gnomon: the tile grid and both images must have the same size";
+    filter(scalar{}, small.view(), to.view(), tiles, scratch);
+    CHECK(complaint() == sentence);
+    filter(scalar{}, from.view(), small.view(), tiles, scratch);
+    CHECK(complaint() == sentence);
+    filter(scalar{}, from.view(), to.view(), tile_grid({4, 2}, 4), scratch);
+    CHECK(complaint() == sentence);
+}

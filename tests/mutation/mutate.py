@@ -1,0 +1,317 @@
+"""Breaks include/gnomon one small piece at a time; each time some test must turn red.
+
+A mutant is a copy of one header with one change. The tests whose includes reach that header are compiled against it and run, one
+source a program, the likeliest first, until one fails: most mutants need one. What survives them all must also survive the files
+that must not compile, and the header's own tests under sanitizers. Then it has to stand in survivors.txt with a reason.
+
+Measured with clang++ 14 -O0 and a precompiled header, one job: 0.7 s a mutant that is found, 10 to 90 s one that survives.
+Answers are kept in build/mutation/results.tsv, so an interrupted run goes on: one that was found counts until its header changes,
+a survivor until a test that reaches it does. Remove the file to begin anew."""
+import argparse
+import collections
+import concurrent.futures
+import hashlib
+import os
+import pathlib
+import random
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+import mutants
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
+SANITIZERS = ("-DNDEBUG", "-fsanitize=address,undefined", "-fno-sanitize-recover=all") # asserts have had their say
+FAR = 3.0 # seconds of processor time that a test of another folder may take to be asked: what only such a one sees deserves a test of its own
+FOUND_BY_TEST, FOUND_BY_COMPILER, FOUND_BY_CLOCK, SURVIVED = "test", "compiler", "clock", "survived"
+
+
+def digest(*parts):
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+
+
+def folder_of(header):
+    """Where its tests stand: gnomon/grid/bit_row.hpp is of grid, gnomon/rect.hpp of unit."""
+    return "unit" if header.count("/") == 1 else header.split("/")[1]
+
+
+class Test:
+    """One source of tests/: which headers it reaches, how long it takes, how often it was asked and how often it found a mutant."""
+
+    def __init__(self, tree, path):
+        self.path, self.name = path, path.relative_to(tree.tests).as_posix()
+        self.names = tree.own_headers(path)
+        self.reaches, self.key = tree.closure(path)
+        self.seconds, self.asked, self.found, self.lock = None, collections.Counter(), collections.Counter(), threading.Lock()
+
+    def is_of(self, header):
+        """Is this the file that is named after the header, or does it include it itself?"""
+        return self.name == f"{folder_of(header)}/{pathlib.Path(header).stem}.cpp" or header in self.names
+
+    def is_near(self, header):
+        return self.is_of(header) or self.name.startswith(folder_of(header) + "/")
+
+    def promise(self, header):
+        """Mutants of the header found per second, guessed from the names at first."""
+        guess = 0.6 if self.is_of(header) else 0.3 if self.is_near(header) else 0.05
+        return (self.found[header] + 2 * guess) / (self.asked[header] + 2) / (self.seconds or 1)
+
+
+class Tree:
+    """include/ and tests/ of a project, and the folder for what is built from them."""
+
+    def __init__(self, root, compiler):
+        self.root, self.include, self.tests, self.build = root, root / "include", root / "tests", root / "build" / "mutation"
+        self.build.mkdir(parents=True, exist_ok=True)
+        self.compiler = compiler
+        self.headers = sorted(p.relative_to(self.include).as_posix() for p in self.include.rglob("*.hpp"))
+        self.text = {header: (self.include / header).read_text() for header in self.headers}
+        self.sources = [Test(self, p) for p in sorted(self.tests.glob("*/*.cpp")) if p.parent.name not in ("compile_fail", "odr", "fuzz")]
+        self.refusals = [Test(self, p) for p in sorted((self.tests / "compile_fail").glob("*.cpp"))]
+        self.flavours, self.lock = {}, threading.Lock()
+
+    def concerned(self, header):
+        return {t for t in self.sources if header in t.reaches}
+
+    def own_headers(self, path):
+        return {name for quote, name in INCLUDE.findall(path.read_text()) if name in self.headers}
+
+    def closure(self, path):
+        """The headers of the project that a file brings along, by way of others and of tests/support; and a digest of all their text."""
+        seen, todo = set(), [path]
+        while todo:
+            here = todo.pop()
+            for quote, name in INCLUDE.findall(here.read_text()):
+                there = self.include / name if quote == "<" else (here.parent / name).resolve()
+                if there not in seen and there.exists():
+                    seen.add(there)
+                    todo.append(there)
+        return ({p.relative_to(self.include).as_posix() for p in seen if p.is_relative_to(self.include)},
+                digest(path.read_text(), *(p.read_text() for p in sorted(seen))))
+
+    def flavour(self, *options):
+        """Compiler options that bring a precompiled header and doctest's main, made for these options once."""
+        with self.lock:
+            if options not in self.flavours:
+                folder = self.build / digest(*options)
+                folder.mkdir(exist_ok=True)
+                standard = {name for folder_ in (self.include, self.tests) for p in folder_.rglob("*.?pp")
+                            for quote, name in INCLUDE.findall(p.read_text())
+                            if quote == "<" and name not in self.headers and not name.endswith((".h", "main.hpp"))}
+                (folder / "all.hpp").write_text("".join(f"#include <{name}>\n" for name in sorted(standard)))
+                line = [self.compiler, "-std=c++20", "-O0", "-w", "-D_GLIBCXX_ASSERTIONS", *options]
+                subprocess.run([*line, "-x", "c++-header", folder / "all.hpp", "-o", folder / "all.pch"], check=True)
+                subprocess.run([*line, "-c", self.tests / "main.cpp", "-o", folder / "main.o"], check=True)
+                self.flavours[options] = [*line, "-fuse-ld=lld", "-include-pch", folder / "all.pch", folder / "main.o",
+                                          f'-DGNOMON_TEST_DATA="{self.tests}/data"']
+            return self.flavours[options]
+
+
+def limited(seconds, command, **more):
+    """Runs a command under a limit of processor time, so that a busy machine does not count as an endless loop."""
+    shell = 'ulimit -t "$0"; exec "$@"'
+    return subprocess.run(["sh", "-c", shell, str(int(seconds) + 1), *map(str, command)], capture_output=True, text=True, errors="replace", **more)
+
+
+def processor_time():
+    """Seconds of all children so far: beside other jobs too many, which only makes a limit generous."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def ask(tree, test, overlay, work, options=()):
+    """(answer, what said so) of one test for the headers in `overlay`, which hide those of include/."""
+    program = work / "program"
+    built = limited(120, [*tree.flavour(*options), f"-I{overlay}", f"-I{tree.include}", test.path, "-o", program])
+    if built.returncode != 0:
+        return FOUND_BY_COMPILER, test.name
+    allowed = 2 + 2 * (test.seconds or 60) * (5 if options else 1)
+    ran = limited(allowed, [program, "-aa=1", "-nc"], env={**os.environ, "ASAN_OPTIONS": "detect_leaks=0"})
+    if ran.returncode == 0 and re.search(r"test cases: +[1-9]", ran.stdout):
+        return SURVIVED, ""
+    if ran.returncode in (-9, -24, 137, 152):
+        return FOUND_BY_CLOCK, test.name
+    case = re.search(r"^TEST CASE: +(.*)$", ran.stdout, re.MULTILINE)
+    return FOUND_BY_TEST, f"{test.name}: {case[1] if case else 'died'}" + (" (sanitizers)" if options else "")
+
+
+def prove(tree, test):
+    """A test must pass before it may judge; and its time is the measure for all that follow. Kept as long as nothing it reads changes."""
+    known = tree.build / "seconds.tsv"
+    with test.lock:
+        if test.seconds is None and known.exists():
+            test.seconds = next((float(seconds) for key, seconds in map(str.split, known.read_text().splitlines()) if key == test.key), None)
+        if test.seconds is None:
+            with tempfile.TemporaryDirectory(dir=tree.build) as folder:
+                began = processor_time()
+                answer, said = ask(tree, test, tree.include, pathlib.Path(folder))
+                if answer != SURVIVED:
+                    raise SystemExit(f"mutate.py: {test.name} fails without any mutant: {answer} {said}")
+                test.seconds = processor_time() - began
+            with known.open("a") as file:
+                file.write(f"{test.key} {test.seconds:.2f}\n")
+
+
+def judge(tree, header, mutant, near):
+    """The answer for one mutant: the first test that turns red, or that none does."""
+    with tempfile.TemporaryDirectory(dir=tree.build) as folder:
+        work = pathlib.Path(folder)
+        overlay = work / "include"
+        (overlay / header).parent.mkdir(parents=True)
+        (overlay / header).write_text(mutant.text)
+        concerned = {t for t in tree.concerned(header) if t.is_near(header) or not near}
+        own = [t for t in concerned if t.is_of(header)]
+        while concerned:
+            test = max(concerned, key=lambda t: t.promise(header))
+            concerned.remove(test)
+            prove(tree, test)
+            if test.seconds > FAR and not test.is_near(header):
+                continue
+            answer = ask(tree, test, overlay, work)
+            test.asked[header] += 1
+            if answer[0] != SURVIVED:
+                test.found[header] += 1
+                return answer
+        if near:
+            return SURVIVED, ""
+        check = ["cmake", f"-DCOMPILE={tree.compiler};-std=c++20;-I{overlay};-I{tree.include}", "-P", tree.tests / "compile_fail/check.cmake"]
+        for refusal in tree.refusals:
+            if header in refusal.reaches and limited(120, [check[0], f"-DSOURCE={refusal.path}", *check[1:]]).returncode != 0:
+                return FOUND_BY_COMPILER, refusal.name
+        for test in own:
+            answer = ask(tree, test, overlay, work, SANITIZERS)
+            if answer[0] != SURVIVED:
+                return answer
+    return SURVIVED, ""
+
+
+class Explained:
+    """survivors.txt: paragraphs of `header: reason`, one line `- ` as it stands in the header, and lines `+ ` of its survivors."""
+
+    def __init__(self, path):
+        self.reasons = {}
+        header = reason = before = None
+        for number, line in enumerate(path.read_text().splitlines() if path.exists() else [], 1):
+            if line.startswith("#"):
+                continue
+            if line.startswith("- "):
+                before = line[2:]
+            elif line.startswith("+ ") and header and before:
+                self.reasons[header, before, line[2:]] = reason
+            elif match := re.fullmatch(r"(gnomon/\S+\.hpp): (.+)", line):
+                header, reason, before = match[1], match[2], None
+            elif line.strip():
+                raise SystemExit(f"{path}:{number}: neither `header: reason` nor `- ` nor `+ `")
+
+    def stale(self, tree, answers, whole):
+        """Explanations of headers that are gone, of lines that do not stand there, and of mutants that a test finds by now."""
+        complaints = []
+        for (header, before, after), _ in self.reasons.items():
+            if header not in tree.headers:
+                complaints.append(f"{header} does not exist")
+            elif header in whole and SURVIVED not in answers.get((header, before, after), ()):
+                made = (header, before, after) in answers
+                complaints.append(f"{header}: {'found by a test' if made else 'no such mutant'}: {before}  ->  {after}")
+        return complaints
+
+
+def run(tree, given):
+    wanted = chosen(tree, given)
+    kept, log = {}, tree.build / "results.tsv"
+    for line in log.read_text().splitlines() if log.exists() else []:
+        key, name, answer, said, seconds = line.split("\t")
+        kept[key, name] = answer, said, float(seconds)
+    explained = Explained(tree.tests / "mutation" / "survivors.txt")
+    answers, rows, lock, began = collections.defaultdict(list), {}, threading.Lock(), time.monotonic()
+    state = {"done": 0, "new": 0, "shown": began}
+
+    def survivor_key(header):
+        return digest(header, str(given.near), *sorted(t.key for t in [*tree.concerned(header), *tree.refusals]))
+
+    def one(job):
+        header, mutant = job
+        found_key, survived_key, name = digest(header, tree.text[header]), survivor_key(header), digest(mutant.text)
+        old = kept.get((found_key, name)) or kept.get((survived_key, name))
+        start = time.monotonic()
+        answer, said = old[:2] if old else judge(tree, header, mutant, given.near)
+        seconds = old[2] if old else time.monotonic() - start
+        with lock:
+            if not old:
+                key = survived_key if answer == SURVIVED else found_key
+                with log.open("a") as file:
+                    file.write(f"{key}\t{name}\t{answer}\t{said}\t{seconds:.2f}\n")
+            answers[header, mutant.before, mutant.after].append(answer)
+            row = rows.setdefault(header, collections.Counter())
+            known = (header, mutant.before, mutant.after) in explained.reasons
+            row["seconds"] += seconds
+            row[("explained" if known else "unexplained") if answer == SURVIVED else answer] += 1
+            if answer == SURVIVED and not known:
+                print(f"SURVIVED {header}:{mutant.line}:{mutant.column}\n- {mutant.before}\n+ {mutant.after}", flush=True)
+            if given.verbose and answer != SURVIVED:
+                print(f"{header}:{mutant.line}:{mutant.column} {answer} {said} {seconds:.1f} s: {mutant.after}", flush=True)
+            state["done"] += 1
+            state["new"] += not old
+            now = time.monotonic()
+            if now - state["shown"] > 20 or state["done"] == len(wanted):
+                state["shown"] = now
+                print(f"[{state['done']}/{len(wanted)}] {header}, {(now - began) / max(state['new'], 1):.2f} s a mutant", flush=True)
+
+    with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
+        for _ in pool.map(one, wanted): # raises what a job raised
+            pass
+
+    complete = {h for h in rows if sum(1 for w in wanted if w[0] == h) == len(mutants.mutants_of(tree.text[h]))}
+    stale = explained.stale(tree, answers, complete)
+    print(f"\n{'':42}{'test':>7}{'compiler':>9}{'clock':>7}{'survived':>9}{'explained':>10}{'s each':>8}")
+    lines = []
+    for header, row in sorted(rows.items()):
+        total = sum(n for what, n in row.items() if what != "seconds")
+        print(f"{header:42}{row['test']:7}{row['compiler']:9}{row['clock']:7}{row['unexplained']:9}{row['explained']:10}{row['seconds'] / total:8.2f}")
+        lines.append("\t".join(map(str, (header, total - row["unexplained"] - row["explained"], row["unexplained"], row["explained"], round(row["seconds"])))))
+    print("".join(f"STALE {complaint}\n" for complaint in stale), end="")
+    (tree.build / "summary.tsv").write_text("".join(line + "\n" for line in lines) + f"survivors.txt\t{len(explained.reasons)}\t{len(stale)}\t0\t0\n")
+    return 1 if stale or any(row["unexplained"] for row in rows.values()) else 0
+
+
+def chosen(tree, given):
+    """The mutants that the options ask for."""
+    wanted = []
+    places = [re.fullmatch(r"(?:include/)?(.*?)(?::(\d+))?", place).groups() for place in given.only] or [("gnomon", None)]
+    for place, line in places:
+        here = [h for h in tree.headers if h == place or h.startswith(place.rstrip("/") + "/") or h == f"gnomon/{place}"
+                or h.startswith(f"gnomon/{place.rstrip('/')}/")]
+        if not here:
+            raise SystemExit(f"mutate.py: no header is {place}")
+        wanted += [(h, m) for h in here for m in mutants.mutants_of(tree.text[h]) if line is None or m.line == int(line)]
+    if given.sample:
+        wanted = random.Random(given.seed).sample(wanted, min(given.sample, len(wanted)))
+    return wanted
+
+
+def main(line=None):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("only", nargs="*", metavar="PATH[:LINE]", help="headers or folders of include/; all of them if left out")
+    parser.add_argument("--list", action="store_true", help="say how many mutants there are, and run none")
+    parser.add_argument("--near", action="store_true", help="ask the tests of the header's own folder alone: quick, to work on these")
+    parser.add_argument("--sample", type=int, metavar="N", help="only N mutants, drawn by --seed")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=1, metavar="N")
+    parser.add_argument("--verbose", action="store_true", help="say what found each mutant")
+    parser.add_argument("--compiler", default="clang++", help="a clang; %(default)s if left out")
+    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2], help="the project; this one if left out")
+    given = parser.parse_args(line)
+    tree = Tree(given.root.resolve(), given.compiler)
+    if given.list:
+        for header, count in collections.Counter(h for h, _ in chosen(tree, given)).items():
+            print(f"{header:42}{count:6}")
+        print(f"{'':42}{len(chosen(tree, given)):6}")
+        return 0
+    return run(tree, given)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
