@@ -99,7 +99,7 @@ template <typename Texel> test::depths_of_code some_depths(int i, int count) {
 
 TEST_CASE_TEMPLATE(
     "behind a filter no receiver at or before the nearest caster is shadowed and towards shadow none behind the farthest is lit",
-    Texel, EVERY_PLAIN_TEXEL) {
+    Texel, EVERY_PLAIN_TEXEL, tm8, tm16) {
     test::dice dice(20);
     sweep wrong;
     for (const auto& f : filters<Texel>(std::integer_sequence<int, 1, 4, 16>{}))
@@ -113,7 +113,7 @@ TEST_CASE_TEMPLATE(
 
 TEST_CASE_TEMPLATE("exhaustive: behind every filter of radius 1 to 16 no receiver at or before the nearest caster is shadowed" *
                        doctest::skip(),
-                   Texel, rg8, rg16, rg16f, rg32f) {
+                   Texel, rg8, rg16, rg16f, rg32f, tm8, tm16) {
     constexpr int depths = 256; // all the codes of 8 bits
     const auto every_filter = filters<Texel>(std::integer_sequence<int, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16>{});
     const sweep wrong = test::scan(depths, [&](int i, sweep& part) {

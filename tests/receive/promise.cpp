@@ -20,7 +20,7 @@ using namespace gnomon;
 using test::sweep;
 
 #define EVERY_PLAIN_TEXEL rg8, rg16, rg16f, rg32f, test::paper8, test::paper16, test::paper16f, test::paper32f
-#define SOME_WITH_EFFECTS rgb16, rga8, rgba8, rgba16f, rgba32f, test::paper_rgba8
+#define SOME_WITH_EFFECTS tm8, tm16, test::ratio_rgba8, rgb16, rga8, rgba8, rgba16f, rgba32f, test::paper_rgba8
 
 namespace {
 
@@ -96,7 +96,7 @@ TEST_CASE_TEMPLATE("towards light: no receiver at or before its caster is shadow
 }
 
 TEST_CASE_TEMPLATE("towards light: two roundings ask for two and then nothing at or before its caster is shadowed", Texel,
-                   EVERY_PLAIN_TEXEL) {
+                   EVERY_PLAIN_TEXEL, tm8, tm16) {
     bias twice = towards_light;
     twice.roundings = 2;
     sweep wrong;
@@ -125,7 +125,7 @@ TEST_CASE_TEMPLATE("towards shadow: every receiver behind its caster is shadowed
 TEST_CASE_TEMPLATE(
     "exhaustive: no receiver at or before its caster is shadowed and towards shadow none behind it is lit under any box" *
         doctest::skip(),
-    Texel, EVERY_PLAIN_TEXEL, rgba8) {
+    Texel, EVERY_PLAIN_TEXEL, tm8, tm16, rgba8) {
     using storage = typename Texel::storage;
     constexpr bool is_float = std::is_same_v<storage, float>, is_half = std::is_same_v<typename Texel::channel_type, half16>;
     constexpr int codes = is_float ? 4096 : (is_half ? 0x3C01 : static_cast<int>(Texel::channel_type::scale) + 1);
@@ -147,8 +147,8 @@ TEST_CASE_TEMPLATE(
     CHECK(wrong.tried() == static_cast<std::size_t>(codes) * 3 * 6544 * 2 * 4); // 6544 shares of 16 boxes
 }
 
-TEST_CASE_TEMPLATE("towards shadow: a blended sample with any mask at all is shadowed behind its caster", Texel,
-                   EVERY_PLAIN_TEXEL) {
+TEST_CASE_TEMPLATE("towards shadow: a blended sample with any mask at all is shadowed behind its caster", Texel, EVERY_PLAIN_TEXEL,
+                   tm8, tm16) {
     sweep wrong;
     for (const float s : {0.25f, 0.5f, 0.9f}) {
         image<Texel> map({2, 1}, Texel::clear());

@@ -33,21 +33,20 @@ Number convolved(const gnomon::image<Texel>& from, const taps& k, int x, int y, 
 }
 
 /// A kernel in the hands of one who stores between the passes: every row is rounded to texels, then every column of those.
-/// Sums and quotients in double, whose own rounding is far below a texel's.
+/// Sums of whole codes are exact; those of floats are doubles, whose own rounding is far below a texel's.
 template <gnomon::texel_format Texel> gnomon::image<Texel> twice_rounded(const gnomon::image<Texel>& from, const taps& k) {
+    using wide = std::conditional_t<Texel::channel_type::whole_codes, std::uint64_t, double>;
     const Texel clear = Texel::clear();
     const auto pass = [&](const gnomon::image<Texel>& in, int right, int down) {
         gnomon::image<Texel> out(in.size());
         for_each_texel(whole(in.size()), [&](int x, int y) {
-            for (int c = 0; c < Texel::channels; ++c) {
-                double sum = 0.0;
-                for (int i = -k.radius; i <= k.radius; ++i) {
-                    const int column = x + i * right, row = y + i * down;
-                    const Texel& t = whole(in.size()).contains(column, row) ? in(column, row) : clear;
-                    sum += k.at(i) * static_cast<double>(Texel::channel_type::code(t.stored[c]));
-                }
-                out(x, y).stored[c] = Texel::channel_type::store(sum / k.total);
+            wide sums[static_cast<std::size_t>(Texel::channels)]{};
+            for (int i = -k.radius; i <= k.radius; ++i) {
+                const int column = x + i * right, row = y + i * down;
+                const Texel& t = whole(in.size()).contains(column, row) ? in(column, row) : clear;
+                for (int c = 0; c < Texel::channels; ++c) sums[c] += static_cast<wide>(k.at(i)) * t.template linear<wide>(c);
             }
+            out(x, y) = Texel::from_linear(sums, static_cast<wide>(k.total));
         });
         return out;
     };

@@ -95,7 +95,7 @@ template <gnomon::texel_format Texel> [[nodiscard]] depths_of_code depths_stored
     const float last = last_float([&](auto code) { return !nearer(stored, code); });
     const double code = static_cast<double>(Texel::channel_type::code(stored)),
                  scale = static_cast<double>(Texel::channel_type::scale);
-    constexpr bool reversed = std::is_same_v<representation, gnomon::depth_mask>;
+    constexpr bool reversed = !std::is_same_v<representation, gnomon::paper_depth_mask>;
     float own = static_cast<float>((reversed ? scale - code : code) / scale);
     const double depth = static_cast<double>(own); // is it behind?  own scale > scale - code, or > code
     if (exact_sum{}.add_product(depth, scale).add(reversed ? code : -code).add(reversed ? -scale : 0.0).sign() > 0) own = down(own);

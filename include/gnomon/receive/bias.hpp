@@ -33,12 +33,13 @@ struct bias {
     bool caster_is_code = false;
 };
 
-/// No false shadow for any caster depth s and receiver z <= s. In texels of depth_mask shadow is kept, with q = 2 max_error and m
-/// the exact share of the footprint, for every z beyond
-///     unorm   s + q (1+r+q)/m + q, where r = max(1-z, 0)
-///     half    s + 6 q, for m >= 2^-10
-///     float   s + 16 q
-/// and in texels of depth_ratio s + q, at every mask that is not empty.
+/// No false shadow for any caster depth s and receiver z <= s. With q = 2 max_error, t = 1-s and m the exact share of the footprint,
+/// shadow is kept for every z beyond
+///     unorm         s + q (1+t)/m + q
+///     half          s + q (1+4t) + (q/2)^2 (1+t)/m
+///     float         s + 14 q
+///     depth_ratio   s + q, at every mask that is not empty
+/// and for none much nearer: 99 % of each band are needed.
 inline constexpr bias towards_light{};
 
 /// Exactly what is stored.
