@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -51,6 +52,16 @@ TEST_CASE("every half comes back from its value - NaN as a quiet NaN of the same
         const unsigned expected = nan ? ((h & half_sign) | 0x7E00) : h;
         wrong.unless(test::is_nan(value) == nan && half_from(static_cast<double>(value)) == expected, "half", h);
     }
+    CHECK(wrong.report() == "");
+}
+
+TEST_CASE("a half that is NaN keeps its sign and its bits as a float") {
+    sweep wrong;
+    for (unsigned h = 0; h < 0x10000; ++h)
+        if ((h & 0x7FFF) > half_infinity)
+            wrong.unless(std::bit_cast<std::uint32_t>(half_to_float(static_cast<std::uint16_t>(h))) ==
+                             ((h & half_sign) << 16 | 0x7F800000u | (h & 0x3FFu) << 13),
+                         "half", h);
     CHECK(wrong.report() == "");
 }
 
