@@ -25,6 +25,10 @@
         test::paper_rgba16, test::paper_rgba16f, test::paper_rgba32f
 #define EVERY_TRANSLUCENT_TEXEL                                                                                                    \
     gnomon::rga8, gnomon::rga32f, gnomon::rgba8, gnomon::rgba16, gnomon::rgba16f, gnomon::rgba32f, test::ratio_rgba8
+/// A filter treats all channels alike, so those texels that have most of them stand for the others.
+#define EVERY_FILTERED_TEXEL                                                                                                       \
+    gnomon::rg8, gnomon::tm8, gnomon::rgba8, gnomon::rgba16, gnomon::rgba16f, gnomon::rgba32f, test::ratio_rgba16,                 \
+        test::paper_rgba8, test::paper_rgba16, test::paper_rgba16f, test::paper_rgba32f
 #define EVERY_TEXEL EVERY_PLAIN_TEXEL, EVERY_BOUNDED_TEXEL, EVERY_TRANSLUCENT_TEXEL
 
 namespace test {

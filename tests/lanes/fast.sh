@@ -3,7 +3,7 @@ run_lane() { preset_lanes quick strict asan; }
 
 preset_lanes() {
     local packages=("${base_packages[@]}") preset began report status
-    [[ $* == *strict* ]] && packages+=(clang)
+    [[ $* == *strict* ]] && packages+=(clang libclang-rt-dev)
     need_packages "${packages[@]}"
     for preset in "$@"; do
         heading "$preset: configure and build"

@@ -51,7 +51,7 @@ TABLE
 }
 
 # What continuous integration runs: one of a kind, without the packages that take longest.
-quick_rows=(gcc-fma clang-fma nehalem aarch64-gcc s390x-gcc geometry-fused fast-math can-fail)
+quick_rows=(gcc-fma clang-fma nehalem s390x-gcc)
 
 run_lane() {
     local names name wanted=("$@")

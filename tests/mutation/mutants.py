@@ -8,7 +8,7 @@ import re
 TOKEN = re.compile(r"""
     (?P<skip>   //[^\n]* | /\*.*?\*/ | ^[ \t]*\#(?:[^\n\\]|\\.)* )
   | (?P<string> "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)+' )
-  | (?P<number> 0x[\da-fA-F]+(?:p[+-]?\d+)?[uUlLfF]* | \d[\d']*(?:\.\d*)?(?:e[+-]?\d+)?[uUlLfF]* )
+  | (?P<number> 0x[\da-fA-F]+(?:\.[\da-fA-F]*)?(?:p[+-]?\d+)?[uUlLfF]* | \d[\d']*(?:\.\d*)?(?:e[+-]?\d+)?[uUlLfF]* )
   | (?P<word>   [A-Za-z_]\w* )
   | (?P<op>     <<= | >>= | -> | :: | \+\+ | -- | && | \|\| | << | >> | [-+*/%&|^<>=!]= | . )""", re.VERBOSE | re.MULTILINE | re.DOTALL)
 
