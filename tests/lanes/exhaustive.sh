@@ -1,11 +1,12 @@
 # --exhaustive: the test cases that visit a whole domain. They live beside their quick versions, are skipped there, and have names
-# that begin with "exhaustive". One at a time, for each uses all processors; built as users build: by g++, Release, for any x86-64.
+# that begin with "exhaustive". One at a time, for each uses all processors; built by g++ -O2 for any x86-64, from the files that hold
+# such cases alone.
 run_lane() {
     need_packages "${base_packages[@]}"
     local folders folder names name
     folders=$(grep -l '"exhaustive: ' tests/*/*.cpp | cut -d / -f 2 | sort -u)
     heading "configure and build"
-    if ! cmake --preset quick -DGNOMON_EXAMPLES=OFF -DGNOMON_TEST_FLAGS=-DGNOMON_EXHAUSTIVE -B build/exhaustive ||
+    if ! cmake --preset quick -DGNOMON_EXAMPLES=OFF -DGNOMON_TEST_FLAGS=-DGNOMON_EXHAUSTIVE -DGNOMON_EXHAUSTIVE=ON -B build/exhaustive ||
         ! cmake --build build/exhaustive -j "$jobs" --target $(printf 'gnomon_tests_%s ' $folders); then
         row exhaustive 0 1 0 "$SECONDS" "does not build"
         return

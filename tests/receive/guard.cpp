@@ -50,7 +50,7 @@ template <typename Texel> void try_texel(const Texel& texel, std::size_t turn, s
     wrong.unless(s >= 0.0f && s <= 1.0f, "caster_depth", s, "from", texel.stored[0], texel.stored[1]);
 }
 
-/// All halves for a depth, under one for a mask: the first eight receivers under the three rules to use, and the depth they give.
+/// All halves for a depth, under one for a mask: the first eight receivers under the rules that move it, and the depth they give.
 template <typename Texel> void try_mask(unsigned mask, sweep& wrong) {
     wrong.unless_all([mask](auto&& check) {
         for (unsigned depth = 0; depth < 0x10000; ++depth) {
@@ -61,7 +61,6 @@ template <typename Texel> void try_mask(unsigned mask, sweep& wrong) {
             for (std::size_t i = 0; i < 8; ++i) {
                 const float z = receivers[i];
                 in_range(shadow(texel, z, rule{.caster = towards_light}), z);
-                in_range(shadow(texel, z, rule{.caster = unbiased}), z);
                 in_range(shadow(texel, z, rule{.caster = towards_shadow}), z);
             }
             in_range(caster_depth(texel), test::nan<float>);
@@ -93,17 +92,16 @@ TEST_CASE_TEMPLATE("no pair of halves gives an intensity outside of 0 to 1 wheth
     CHECK(wrong.report() == "");
 }
 
-TEST_CASE_TEMPLATE(
+TEST_CASE(
     "exhaustive: none of the 2^32 pairs of halves gives an intensity outside of 0 to 1 whether or not subnormals are flushed" *
-        doctest::skip(),
-    Texel, rg16f, test::paper16f) {
+    doctest::skip()) {
     const sweep wrong = test::scan(2 * 65536, [](int row, sweep& part) {
         const test::flush_subnormals mode(row % 2 != 0);
-        void (*const volatile in_this_mode)(unsigned, sweep&) = &try_mask<Texel>; // volatile: so that no arithmetic leaves its mode
+        void (*const volatile in_this_mode)(unsigned, sweep&) = &try_mask<rg16f>; // volatile: so that no arithmetic leaves its mode
         in_this_mode(static_cast<unsigned>(row / 2), part);
     });
     CHECK(wrong.report() == "");
-    CHECK(wrong.tried() == 2 * (8 * 3 + 1) * (std::size_t{1} << 32));
+    CHECK(wrong.tried() == 2 * (8 * 2 + 1) * (std::size_t{1} << 32));
 }
 
 TEST_CASE_TEMPLATE("no four floats give an intensity outside of 0 to 1 whether or not subnormals are flushed", Texel, rgba32f,

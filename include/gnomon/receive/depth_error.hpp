@@ -47,10 +47,11 @@ template <texel_format Texel, int Steps> consteval float mask_for_steps() {
     constexpr auto own =
         representation_type::premultiplied ? 0.0f : representation_type::template depth_of_caster<channel_type>().farther;
     constexpr float left = 1.0f / static_cast<float>(Steps) - depth.relative - mask.relative - own;
-    constexpr float threshold = representation_type::premultiplied ? (depth.absolute + mask.absolute) / channel_type::scale / left
-                                                                   : channel_type::rounding.absolute / channel_type::scale;
+    constexpr float least = channel_type::rounding.absolute / channel_type::scale; // the mask that is not lost
+    constexpr float threshold =
+        representation_type::premultiplied && left > 0.0f ? (depth.absolute + mask.absolute) / channel_type::scale / left : least;
     static_assert(
-        left >= 0.0f && threshold <= 1.0f,
+        (representation_type::premultiplied ? left > 0.0f : left >= 0.0f) && threshold <= 1.0f,
         "gnomon: no mask is enough to tell so many depths apart in this texel; take unorm16, float32 or depth_ratio, or fewer");
     return threshold;
 }
