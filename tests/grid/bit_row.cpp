@@ -120,6 +120,15 @@ TEST_CASE("the next set or clear bit is found from every place, and runs come wh
     }
 }
 
+TEST_CASE("a row of nothing has no bits") {
+    constexpr gnomon::bit_row row;
+    CHECK(row.size == 0);
+    CHECK(row.words == nullptr);
+    CHECK(row.next_set(0) == 0);
+    CHECK(row.all(0, 0));
+    CHECK_FALSE(row.any(0, 0));
+}
+
 TEST_CASE("a full and an empty row of any size are one run and none") {
     for (int size = 0; size <= 200; ++size) {
         std::vector<bit_word> words(static_cast<std::size_t>(gnomon::words_for(size)));
