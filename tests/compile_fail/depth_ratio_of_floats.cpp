@@ -1,4 +1,4 @@
-// expect: gnomon: depth_ratio is for unorm8 and unorm16
+// expect: gnomon: depth_ratio, and whatever else is not premultiplied, is for unorm8 and unorm16
 #include <gnomon/texel/texel.hpp>
 
 #if GNOMON_EXPECT_FAILURE

@@ -134,7 +134,22 @@ TEST_CASE_TEMPLATE("clear stays clear and a full map full, to the last level", T
     }
 }
 
+TEST_CASE("a map without texels on either side builds nothing and samples as clear") {
+    for (const extent size : {extent{0, 7}, {7, 0}, {0, 0}, {-3, 5}}) {
+        pyramid<rg8> mips(size, 4);
+        const image<rg8> map(size);
+        mips.build(map.view(), tile_grid(size, 4));
+        CHECK(mips.coarsest() == 0);
+        CHECK(test::same_bits(sample(map.view(), mips, 0.5f, 0.5f, 1.0f).mask(), 0.0));
+    }
+}
+
 #ifdef NDEBUG
+TEST_CASE("without asserts, a pyramid of another size than the map is not read") {
+    const image<rg8> map({5, 3}, rg8::caster(0.5f));
+    CHECK(test::same_bits(sample(map.view(), pyramid<rg8>({64, 64}, 8), 2.5f, 1.5f, 2.0f).mask(), 255.0));
+}
+
 TEST_CASE("without asserts, a map of another size or with other tiles builds nothing") {
     pyramid<rg8> mips({32, 32}, 8);
     const image<rg8> full({32, 32}, rg8::caster(0.5f)), smaller({32, 31}, rg8::caster(0.5f));
@@ -223,6 +238,35 @@ TEST_CASE_TEMPLATE("h16_mip_chain_drift: l levels keep the depth within (l+1)(1+
         CHECK(drift / texels > 0.0); // halves go up
         CHECK(drift / texels < 6.0 / 8.0);
     }
+}
+
+TEST_CASE_TEMPLATE("a level of ratios loses less than a code a level of the mean depth below it and says so", Texel, tm8, tm16) {
+    dice roll(66);
+    const double code = 1.0 / static_cast<double>(Texel::channel_type::scale);
+    sweep wrong;
+    double worst = 0.0;
+    for (int round = 0; round < 400; ++round) {
+        image<Texel> base({32, 32});
+        const int depth = roll(0, 200);
+        test::for_each_texel(whole(base.size()), [&](int x, int y) {
+            base(x, y) =
+                Texel::caster(static_cast<float>(1.0 - (depth + (roll.one_in(4) ? 0 : 1)) * code)); // 3/4 are lost each time
+        });
+        const pyramid<Texel> mips = built(base);
+        for (int l = 1; l <= mips.coarsest(); ++l)
+            test::for_each_texel(whole(mips.level(l).size()), [&](int x, int y) {
+                double exact = 0.0;
+                const int side = 1 << l;
+                test::for_each_texel({x * side, y * side, (x + 1) * side, (y + 1) * side},
+                                     [&](int i, int j) { exact += static_cast<double>(caster_depth(base(i, j))) / (side * side); });
+                const double error = static_cast<double>(caster_depth(mips.level(l)(x, y))) - exact; // away from the light
+                wrong.unless(error >= -0x1p-24 && error <= static_cast<double>(depth_error(mips.level(l)(x, y), l)), "level", l,
+                             error);
+                worst = greater(worst, error / code);
+            });
+    }
+    CHECK(wrong.report() == "");
+    CHECK(worst > 0.7);
 }
 
 TEST_CASE_TEMPLATE("at a whole lod a sample is the sample of that level and between two it is their blend, exactly", Texel, rg8,

@@ -141,8 +141,10 @@ TEST_CASE("a sheared frame sees every point where the frame does, at the sheared
             const glm::dvec3 p = roll.vector(6.0);
             const map_point before = light.to_map(p), after = sheared.to_map(p);
             if (!before.in_front()) continue;
-            const double expected = (before.depth - static_cast<double>(shear.casters.nearest)) / static_cast<double>(shear.span());
-            CHECK(distance(after, {before.x, before.y, expected}) < 1e-9);
+            const double span = static_cast<double>(shear.span());
+            const double expected = (before.depth - static_cast<double>(shear.casters.nearest)) / span;
+            CHECK(distance(after, {before.x, before.y, after.depth}) < 1e-9);
+            CHECK(std::abs(after.depth - expected) <= (1.0 + 2.0 * std::abs(expected)) * 0x1p-22 / span); // widened a little
             if (light.perspective() && !(expected > 0.01)) continue; // no GPU draws what lies before its near plane
             const glm::vec4 local(glm::vec3(p), 1.0f);
             const map_point drawn = viewport(glm::dvec4(sheared.clip_matrix({}) * local), map_size, {});
@@ -152,8 +154,29 @@ TEST_CASE("a sheared frame sees every point where the frame does, at the sheared
     }
     const light_frame light = lamp.frame(map_size, 4);
     CHECK(light.sheared({}).matrix() == light.matrix());
-    CHECK_FALSE(light.sheared({-1.0f, 0.5f}).valid()); // begins behind the lamp
+    CHECK(std::abs(light.sheared({0.0f, 0.5f}).near_w() - light.near_w()) < 1e-12); // its own near plane stays
+    CHECK_FALSE(light.sheared({-1.0f, 0.5f}).valid());                              // begins behind the lamp
     CHECK_FALSE(light_frame().sheared({0.25f, 0.5f}).valid());
+}
+
+TEST_CASE("a frame that is sheared to the depths which a mesh was drawn in draws all of its texels again") {
+    dice roll{std::mt19937_64(7)};
+    const std::vector<std::uint32_t> indices{0, 2, 1, 0, 3, 2};
+    const spot_light lamp{.position = {0, 5, 0}, .direction = {0, -1, 0}, .outer_angle = 0.5, .near_plane = 0.1, .far_plane = 10.0};
+    const light_frame light = lamp.frame({64, 64}, 3);
+    const auto texels_of = [&](const light_frame& frame, const triangle_mesh& mesh, light_footprint& touched) {
+        int texels = 0;
+        touched = rasterize(mesh, frame, whole(frame.size()), faces::both, [&](int, int, float) { ++texels; });
+        return texels;
+    };
+    for (int i = 0; i < 400; ++i) {
+        const auto y = static_cast<float>(roll(0.5, 4.0)); // flat: all of it lies in one depth
+        const std::vector<glm::vec3> corners{{-0.5f, y, -0.5f}, {0.5f, y, -0.5f}, {0.5f, y, 0.5f}, {-0.5f, y, 0.5f}};
+        light_footprint touched, again;
+        const int texels = texels_of(light, {corners, indices}, touched);
+        CHECK(texels > 0);
+        CHECK(texels_of(light.sheared(touched.depth), {corners, indices}, again) == texels);
+    }
 }
 
 TEST_CASE("a mesh with a double model matrix is drawn at 1e6 m as it is at the origin") {

@@ -34,6 +34,7 @@ run_lane() {
 in_parallel() {
     local function=$1 item began outcome note
     shift
+    rm -f "$fuzz/logs/$function"-*.row
     for item in "$@"; do
         while (($(jobs -rp | wc -l) >= jobs)); do wait -n || true; done
         (
@@ -45,7 +46,8 @@ in_parallel() {
     done
     wait
     for item in "$@"; do
-        read -r passed_here failed_here took note <"$fuzz/logs/$function-$item.row"
+        read -r passed_here failed_here took note <"$fuzz/logs/$function-$item.row" ||
+            { passed_here=0 failed_here=1 took=0 note="it was cut off"; }
         [[ $item != *-* ]] || note="${item#*-}: $note"
         row "${item%%-*} ${function//_/ }" "$passed_here" "$failed_here" 0 "$took" "$note"
     done

@@ -69,3 +69,15 @@ TEST_CASE_TEMPLATE("with a shear a receiver before the casters is lit and one be
             CHECK(test::same_bits(shadow(texel, shear(z)), 1.0f));
     }
 }
+
+TEST_CASE_TEMPLATE("with a shear a receiver bounds the shadow if the interval reaches over it and not beyond", Texel, rgb8, rgb16f,
+                   test::ratio_rgba8) {
+    const auto behind_a_floor_at_half = [](depth_shear shear) {
+        Texel texel = Texel::caster(shear(0.25f));
+        texel.bound(shear(0.5f));
+        return shadow(texel, shear(0.9f));
+    };
+    CHECK(test::same_bits(behind_a_floor_at_half({}), 0.0f));
+    CHECK(test::same_bits(behind_a_floor_at_half({{0.2f, 0.6f}}), 0.0f));
+    CHECK(test::same_bits(behind_a_floor_at_half({{0.2f, 0.3f}}), 1.0f)); // as depth_shear says
+}

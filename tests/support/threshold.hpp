@@ -45,8 +45,7 @@ template <gnomon::texel_format Texel> [[nodiscard]] float first_shadowed(const T
 /// one rounding; which for float and m is less, since 1 + bias is no float there and is rounded down.
 template <gnomon::texel_format Texel> [[nodiscard]] double end_of_doubt(double s, double m) {
     using channel_type = typename Texel::channel_type;
-    constexpr gnomon::rounding_error depth = Texel::representation_type::template depth_rounding<channel_type>(),
-                                     mask = channel_type::rounding;
+    constexpr gnomon::rounding_error depth = Texel::depth_rounding, mask = Texel::mask_rounding;
     constexpr double u = 0x1p-24, scale = static_cast<double>(channel_type::scale);
     constexpr double own_depth = channel_type::whole_codes ? 0.0 : 5.0 * u;
     constexpr double own_mask = std::is_same_v<channel_type, gnomon::float32> ? 3.6 * u : own_depth;

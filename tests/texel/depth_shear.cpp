@@ -44,12 +44,17 @@ TEST_CASE("a sheared depth is within 3 * 2^-24 of the exact quotient relatively 
     CHECK(worst > 0.66);
 }
 
-TEST_CASE("an empty interval changes nothing - one of a single depth is 2^-16 wide - NaN stays NaN") {
+TEST_CASE("an empty or infinite interval changes nothing - one of a single depth is 2^-16 wide - NaN stays NaN") {
     for (const float z : {0.0f, 0.25f, 1.0f, 2.0f}) {
         CHECK(test::same_bits(depth_shear{{1.0f, 0.0f}}(z), z));
         CHECK(test::same_bits(depth_shear{}(z), z));
         CHECK(test::same_bits(depth_shear{}.inverse(z), z));
     }
+    for (const depth_interval infinite : {depth_interval{-test::infinity<float>, 0.5f},
+                                          {0.0f, test::infinity<float>},
+                                          {-test::infinity<float>, test::infinity<float>},
+                                          {test::nan<float>, 0.5f}})
+        CHECK(test::same_bits(depth_shear{infinite}(0.25f), 0.25f));
     const depth_shear flat{{0.5f, 0.5f}};
     CHECK(test::same_bits(flat(0.5f), 0.0f));
     CHECK(test::same_bits(flat(0.5f + 0x1p-16f), 1.0f));

@@ -47,9 +47,10 @@ texel_rect halve_region(image_view<T> from, image_view<Texel> to, texel_rect reg
 
 /// The mip levels above a filtered map, down to one texel. Level 0 is the map itself; it stays the host's, and no view of it is kept.
 ///
-/// Level l is rounded l times more than level 0: its depths are within (l+1)(1+t)/(2M) in whole codes, and a decision on it takes
-/// bias{.roundings = mip_roundings(l)}, then still gives no false shadow. Masks of whole codes drift upwards by an eighth of a code
-/// a level at most on average, for halves are rounded up. Clear stays clear, and e <= m holds.
+/// Level l is rounded l times more than level 0: its depths are within depth_error(texel, mip_roundings(l)), in whole codes
+/// (l+1)(1+t)/(2M), and a decision on it takes bias{.roundings = mip_roundings(l)}, then still gives no false shadow. Masks of
+/// whole codes drift upwards by an eighth of a code a level at most on average, for halves are rounded up. Clear stays clear, and
+/// e <= m holds as it does in a filter.
 /// Allocates in its constructor and never again.
 template <texel_format Texel> class pyramid {
   public:
@@ -72,11 +73,12 @@ template <texel_format Texel> class pyramid {
     ///
     /// Reads its marked tiles alone, and those of the last build: the same bits as from the whole map, if the map is clear where
     /// nothing is marked. \pre the map and its grid have the size and the tiles of the constructor; from others nothing is built.
-    /// Cost: a third of the marked area, at 4 reads a texel.
+    /// Cost: 4 reads a texel, for a third of the area that is marked or was; and a texel a level for each region of the grid.
     void build(image_view<const Texel> map, const tile_grid& tiles) noexcept {
+        if (levels_.empty() && map.size().width <= 1 && map.size().height <= 1) return; // nothing or one texel has no levels
         const bool fits = map.size() == size() && tiles.size() == size() && tiles.tile() == built_.tile();
         GNOMON_ASSERT(fits, "gnomon: a pyramid is built for one size of map and of tile");
-        if (!fits || levels_.empty()) return;
+        if (!fits) return;
         // A texel of a coarse level may lie under several regions. The last of them finds everything below it done.
         const auto halve = [this, map](texel_rect region) {
             region = halve_region(map, levels_.front().view(), region);
@@ -95,13 +97,17 @@ template <texel_format Texel> class pyramid {
 
 /// Blended from the two levels around `lod`, four texels of each: at (x, y) in texels of the map. Level l is taken whole at lod = l.
 ///
+/// \pre the pyramid was built from this map; of one of another size nothing is read.
 /// `lod` is limited to the levels there are, NaN is 0, and is taken to 1/256. Off the map lies clear. Exact for unorm and half; float
 /// and 16-bit ratios to 2^-45; keeps e <= m. A decision takes the roundings of the coarser level.
 template <typename T, texel_format Texel>
     requires std::same_as<std::remove_const_t<T>, Texel>
 [[nodiscard]] filtered<Texel> sample(image_view<T> map, const pyramid<Texel>& mips, float x, float y, float lod) noexcept {
+    GNOMON_ASSERT(mips.coarsest() == 0 || mips.size() == map.size(),
+                  "gnomon: a pyramid is sampled together with the map it was built from");
     constexpr int steps = 256;
-    const double bounded = lod > 0.0f ? lesser(static_cast<double>(lod), static_cast<double>(mips.coarsest())) : 0.0;
+    const double bounded =
+        lod > 0.0f && mips.size() == map.size() ? lesser(static_cast<double>(lod), static_cast<double>(mips.coarsest())) : 0.0;
     const int fixed = detail::floor_to_int(bounded * steps + 0.5), fine = fixed / steps, part = fixed % steps;
     const auto at = [&](int l) {
         const float size = 1.0f / static_cast<float>(1 << l); // a power of two: scales exactly

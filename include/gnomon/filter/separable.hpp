@@ -15,8 +15,9 @@ namespace gnomon {
 
 /// What a line between the passes holds: whole numbers where codes are whole (exact), doubles otherwise.
 template <texel_format Texel>
-using line_element = std::conditional_t < !Texel::channel_type::whole_codes,
-      double, std::conditional_t<Texel::linear_scale * kernel_total_limit<4294967296.0, std::uint32_t, std::uint64_t>>;
+using line_element =
+    std::conditional_t<!Texel::channel_type::whole_codes, double,
+                       std::conditional_t<(Texel::linear_scale * kernel_total_limit < 0x1p32), std::uint32_t, std::uint64_t>>;
 
 /// The memory a filter needs beside its images: one line of wide sums, used again for every row. Nothing is read from it that the
 /// same call did not write, so it may hold anything. For a map of `width` texels: filter_scratch_size<Texel, Kernel>(width)
@@ -100,7 +101,7 @@ void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) no
 ///
 /// Beyond the map's edge lies clear, never a repeated edge. Unorm results are the exact rational convolution rounded once, halves
 /// upwards. Half and float results are rounded once from a sum within 2^-35 of it, relatively. Clear stays exactly clear, a uniform
-/// region stays exactly itself, and e <= m holds at every texel. `scratch` is trusted for nothing.
+/// region stays exactly itself, and e <= m holds at every texel, the paper's pair in half and float excepted. `scratch` is trusted for nothing.
 /// \pre `from` and `to` do not overlap; an image is not filtered into itself, and asking for it does nothing.
 /// Cost: 2 (2R+1) multiply-adds a channel of a texel, and half of that for 2R columns beside the region.
 template <kernel Kernel, texel_format Texel>

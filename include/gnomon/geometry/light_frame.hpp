@@ -94,7 +94,8 @@ class light_frame {
     [[nodiscard]] static light_frame from_matrix(const glm::dmat4& world_to_clip, extent size, clip_space clip) noexcept;
 
     /// The same light with its depth range cut to where casters are, for both casters and receivers; see depth_shear, which does the
-    /// same to depths. An empty interval changes nothing; one that begins behind a spot light makes an invalid frame.
+    /// same to depths. The interval is widened by 2^-23 on each side, because a rounded depth of the casters must not cut them off. An
+    /// empty interval changes nothing; one that begins behind a spot light makes an invalid frame.
     [[nodiscard]] light_frame sheared(depth_interval casters) const noexcept;
 
     [[nodiscard]] bool valid() const noexcept { return far_w_ > 0.0; }
@@ -137,7 +138,9 @@ class light_frame {
 
 inline light_frame light_frame::sheared(depth_interval casters) const noexcept {
     if (casters.empty()) return *this;
-    const double first = static_cast<double>(casters.nearest), span = static_cast<double>(depth_shear{casters}.span());
+    const float in_range = lesser(casters.nearest, 0.0f); // the light's own near plane stays where it is
+    const depth_shear shear{{greater(casters.nearest - 0x1p-23f, in_range), casters.farthest + 0x1p-23f}};
+    const double first = static_cast<double>(shear.nearest()), span = static_cast<double>(shear.span());
     const glm::dvec4 depth = (detail::row(matrix_, 2) - glm::dvec4(0.0, 0.0, 0.0, first)) / span;
     const double w_per_depth = far_w_ - near_w_;
     return {detail::from_rows(detail::row(matrix_, 0), detail::row(matrix_, 1), depth, detail::row(matrix_, 3)), size_,

@@ -35,8 +35,9 @@ namespace detail {
 /// The best origin for a light: the middle of what the map covers, or the place of a spot light, whose floats then are finest
 /// where the cone is narrowest.
 ///
-/// It lies on a grid whose cell is a power of two, so it stands still while the light moves less than a cell, and what was
-/// rebased may be kept: the cell is 1/8 to 1/4 of the way from the middle to a corner, or to a spot light's near plane.
+/// It lies on a grid whose cell is a power of two, so it stands still for most frames of a moving light, and then jumps by a cell:
+/// compare it with the last one before keeping what was rebased. The cell is 1/8 to 1/4 of the way from the middle to a corner,
+/// or to a spot light's near plane.
 /// The world's origin for an invalid frame.
 [[nodiscard]] inline glm::dvec3 rebase_origin(const light_frame& light) noexcept {
     if (!light.valid()) return glm::dvec3(0.0);

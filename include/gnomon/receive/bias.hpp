@@ -23,7 +23,8 @@ enum class bias_towards {
 /// light by itself and is left as it is.
 struct bias {
     bias_towards towards = bias_towards::light;
-    /// How often a filtered number was rounded to storage: 1 for gnomon's filters, 2 for a two-pass filter that stores between.
+    /// How often a filtered number was rounded to storage: 1 for gnomon's filters, 2 for a two-pass filter that stores between, one
+    /// more for each mip level. \pre 0 to 1,000
     int roundings = 1;
     /// Moves the receiver this much more of the depth range to the favoured side: towards the light with `light`, away from it with
     /// `shadow`, and not at all with `none`. A host's own bias in world units over the light's range goes here.
@@ -51,9 +52,8 @@ inline constexpr bias towards_shadow{.towards = bias_towards::shadow};
 /// What the rounding of a caster's own depth can do on either side, and 2^-24 for the sums in float that apply it.
 template <texel_format Texel>
 inline constexpr caster_rounding caster_depth_error = [] {
-    constexpr caster_rounding own = Texel::representation_type::template depth_of_caster<typename Texel::channel_type>();
     constexpr auto applied = [](float error) { return error > 0.0f ? error + 0x1p-24f : 0.0f; };
-    return caster_rounding{.nearer = applied(own.nearer), .farther = applied(own.farther)};
+    return caster_rounding{.nearer = applied(Texel::depth_of_caster.nearer), .farther = applied(Texel::depth_of_caster.farther)};
 }();
 
 /// The pair (e, m) and the receiver z, each moved to the favoured end of what it may have been before it was rounded.
@@ -68,8 +68,7 @@ struct biased {
 template <texel_format Texel> [[nodiscard]] constexpr biased apply(const bias& b, double e, double m, float z) noexcept {
     using channel_type = typename Texel::channel_type;
     using real = std::conditional_t<channel_type::whole_codes, double, float>;
-    constexpr rounding_error depth = Texel::representation_type::template depth_rounding<channel_type>();
-    constexpr rounding_error mask = Texel::representation_type::template mask_rounding<channel_type>();
+    constexpr rounding_error depth = Texel::depth_rounding, mask = Texel::mask_rounding;
     constexpr float own = channel_type::whole_codes ? 0.0f : 0x1p-22f; // two operations and the conversion of a blended sample
     const float towards = b.towards == bias_towards::light ? 1.0f : (b.towards == bias_towards::shadow ? -1.0f : 0.0f);
     const float k = towards * static_cast<float>(b.roundings);

@@ -31,9 +31,9 @@ concept representation = requires(double v, float z) {
 /// Depth, mask, and the optional channels, interleaved: the object is the memory. Channel order: depth, mask, far bound
 /// (if any), contribution (if any). No padding: sizeof is channels times the storage, so an engine's buffer can be viewed as it is.
 template <channel Channel, representation Representation = depth_mask, effects Effects = effects{}> struct texel {
-    static_assert(
-        Representation::premultiplied || Channel::whole_codes,
-        "gnomon: depth_ratio is for unorm8 and unorm16; half16 and float32 keep a depth's precision in depth_mask already");
+    static_assert(Representation::premultiplied || Channel::whole_codes,
+                  "gnomon: depth_ratio, and whatever else is not premultiplied, is for unorm8 and unorm16; half16 and float32 keep "
+                  "a depth's precision in depth_mask already");
     using channel_type = Channel;
     using representation_type = Representation;
     using storage = typename Channel::storage;
@@ -44,6 +44,11 @@ template <channel Channel, representation Representation = depth_mask, effects E
     static constexpr int far_index = Effects.far_bound ? 2 : -1;
     static constexpr int contribution_index = Effects.translucency ? (Effects.far_bound ? 3 : 2) : -1;
     static constexpr int channels = 2 + (Effects.far_bound ? 1 : 0) + (Effects.translucency ? 1 : 0);
+
+    /// How far a code of a filtered texel may be from its exact value, and a caster's stored depth from its own.
+    static constexpr rounding_error depth_rounding = Representation::template depth_rounding<Channel>();
+    static constexpr rounding_error mask_rounding = Representation::template mask_rounding<Channel>();
+    static constexpr caster_rounding depth_of_caster = Representation::template depth_of_caster<Channel>();
 
     storage stored[static_cast<std::size_t>(channels)];
 
