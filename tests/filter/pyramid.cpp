@@ -134,6 +134,15 @@ TEST_CASE_TEMPLATE("clear stays clear and a full map full, to the last level", T
     }
 }
 
+TEST_CASE("a region off the level halves to nothing and writes nothing") {
+    const image<rg8> from({4, 4}, rg8::caster(0.5f));
+    image<rg8> to({2, 2}, rg8::clear());
+    for (const texel_rect off : {texel_rect{4, 0, 9, 4}, {-3, 0, 0, 4}, {2, 2, 2, 2}, {3, 0, 1, 4}})
+        CHECK(halve_region(from.view(), to.view(), off).empty());
+    CHECK(test::differences(to, image<rg8>({2, 2}, rg8::clear())) == 0);
+    CHECK(halve_region(from.view(), to.view(), {3, 3, 9, 9}) == texel_rect{1, 1, 2, 2});
+}
+
 TEST_CASE("a map without texels on either side builds nothing and samples as clear") {
     for (const extent size : {extent{0, 7}, {7, 0}, {0, 0}, {-3, 5}}) {
         pyramid<rg8> mips(size, 4);

@@ -218,3 +218,15 @@ TEST_CASE("footprints are equal if and only if texels and depths are") {
     CHECK(one != light_footprint{{1, 2, 3, 5}, {0.25f, 0.5f}});
     CHECK(one != light_footprint{{1, 2, 3, 4}, {0.25f, 0.75f}});
 }
+
+TEST_CASE("before an invalid light nothing has a footprint and before a valid one neither has an empty box or ball") {
+    const light_frame nowhere, light = spot_light{.position = {0, 5, 0}, .direction = {0, -1, 0}}.frame({64, 64});
+    const bounding_box box{{-1, -1, -1}, {1, 1, 1}}, no_box{{1, 1, 1}, {-1, -1, -1}};
+    const bounding_sphere ball{{0, 0, 0}, 1.0}, no_ball{{0, 0, 0}, -1.0};
+    CHECK(!footprint(box, light).empty());
+    CHECK(!footprint(ball, light).empty());
+    CHECK(footprint(box, nowhere).empty());
+    CHECK(footprint(ball, nowhere).empty());
+    CHECK(footprint(no_box, light).empty());
+    CHECK(footprint(no_ball, light).empty());
+}

@@ -149,6 +149,27 @@ TEST_CASE_TEMPLATE("a caster stores its depth in its own way and a full mask", T
     CHECK(wrong.report() == "");
 }
 
+TEST_CASE_TEMPLATE("a representation says how its texels round and the texel passes it on", Texel, EVERY_TEXEL) {
+    using channel_type = typename Texel::channel_type;
+    using representation_type = typename Texel::representation_type;
+    const rounding_error depth = representation_type::template depth_rounding<channel_type>(),
+                         mask = representation_type::template mask_rounding<channel_type>();
+    const caster_rounding caster = representation_type::template depth_of_caster<channel_type>();
+    CHECK(test::equal(Texel::depth_rounding.absolute, depth.absolute));
+    CHECK(test::equal(Texel::depth_rounding.relative, depth.relative));
+    CHECK(test::equal(Texel::mask_rounding.absolute, mask.absolute));
+    CHECK(test::equal(Texel::mask_rounding.relative, mask.relative));
+    CHECK(test::equal(Texel::depth_of_caster.nearer, caster.nearer));
+    CHECK(test::equal(Texel::depth_of_caster.farther, caster.farther));
+    if (representation_type::premultiplied) {
+        CHECK(test::equal(mask.absolute, channel_type::rounding.absolute));
+        CHECK(test::equal(caster.nearer, channel_type::max_error));
+    } else { // a ratio errs one way, and what its filter rounds moves no decision
+        CHECK(test::equal(depth.absolute + mask.absolute + depth.relative + mask.relative + caster.nearer, 0.0f));
+        CHECK(test::equal(caster.farther, 1.0f / channel_type::scale));
+    }
+}
+
 TEST_CASE_TEMPLATE("a caster outside of 0 to 1 is clamped and one at NaN is at the far plane", Texel, EVERY_TEXEL) {
     for (const float s : {-test::infinity<float>, -1.0f, -test::smallest<float>, -0.0f})
         CHECK(Texel::caster(s) == Texel::caster(0.0f));

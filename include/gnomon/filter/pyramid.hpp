@@ -75,7 +75,7 @@ template <texel_format Texel> class pyramid {
     /// nothing is marked. \pre the map and its grid have the size and the tiles of the constructor; from others nothing is built.
     /// Cost: 4 reads a texel, for a third of the area that is marked or was; and a texel a level for each region of the grid.
     void build(image_view<const Texel> map, const tile_grid& tiles) noexcept {
-        if (levels_.empty() && map.size().width <= 1 && map.size().height <= 1) return; // nothing or one texel has no levels
+        if (levels_.empty()) return; // nothing, or one texel
         const bool fits = map.size() == size() && tiles.size() == size() && tiles.tile() == built_.tile();
         GNOMON_ASSERT(fits, "gnomon: a pyramid is built for one size of map and of tile");
         if (!fits) return;
