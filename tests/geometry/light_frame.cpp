@@ -265,6 +265,14 @@ TEST_CASE("h19: a degenerate light makes an invalid frame, before which nothing 
     CHECK(frames.size() == 40);
 }
 
+TEST_CASE("a map has 1 to 2^20 texels a side") {
+    constexpr int most = 1 << 20;
+    const glm::dmat4 any(1.0);
+    for (const extent size : {extent{1, 1}, extent{most, 1}, extent{1, most}}) CHECK(light_frame(any, size, 1.0, 1.0).valid());
+    for (const extent size : {extent{0, 1}, extent{1, 0}, extent{most + 1, 1}, extent{1, most + 1}})
+        CHECK_FALSE(light_frame(any, size, 1.0, 1.0).valid());
+}
+
 TEST_CASE("h19: what is behind a spot light or beside it is nowhere, and no divide sees its w") {
     const light_frame light =
         spot_light{.position = {0, 5, 0}, .direction = {0, -1, 0}, .near_plane = 1.0, .far_plane = 10.0}.frame({64, 64});

@@ -34,6 +34,11 @@ TEST_CASE("lesser and greater give the first of two that are equal or unordered"
     }
 }
 
+TEST_CASE("select gives the first of two if the condition holds and else the second") {
+    CHECK(select(true, 2, 3) == 2);
+    CHECK(select(false, 2, 3) == 3);
+}
+
 TEST_CASE("a depth interval is empty until something is included and then holds all of it") {
     depth_interval depths;
     CHECK(depths.empty());
