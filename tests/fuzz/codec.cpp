@@ -239,6 +239,7 @@ void lightmap(fuzz::bytes& in) {
     const double s = static_cast<double>(saturate(share)), l = static_cast<double>(light), a = static_cast<double>(ambient);
     if (test::is_nan(share) || share <= 0.0f) demand(test::equal(left, light), "no shadow leaves the light");
     const auto side = [&](float other) { // of light - s (light - ambient)
+        if (std::isinf(other)) return other > 0.0f ? -1 : 1;
         return exact_sum{}.add(l).add_product(-s, l).add_product(s, a).add(-static_cast<double>(other)).sign();
     };
     demand(side(test::down(left)) >= 0 && side(test::up(left)) <= 0, "within one ulp of light - shadow (light - ambient)");

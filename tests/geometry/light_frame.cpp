@@ -200,3 +200,11 @@ TEST_CASE("a mesh with a double model matrix is drawn at 1e6 m as it is at the o
     CHECK(covered > 10000);
     CHECK(different <= 1); // a centre on an edge may fall to the other side
 }
+
+TEST_CASE("a map has 1 to 2^20 texels a side") {
+    constexpr int most = 1 << 20;
+    const glm::dmat4 any(1.0);
+    for (const extent size : {extent{1, 1}, extent{most, 1}, extent{1, most}}) CHECK(light_frame(any, size, 1.0, 1.0).valid());
+    for (const extent size : {extent{0, 1}, extent{1, 0}, extent{most + 1, 1}, extent{1, most + 1}})
+        CHECK_FALSE(light_frame(any, size, 1.0, 1.0).valid());
+}

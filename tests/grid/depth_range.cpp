@@ -69,6 +69,16 @@ TEST_CASE("each tile knows the depths of the casters around it, frame after fram
     }
 }
 
+TEST_CASE("a tall map has depths in its last tile, and no guard band unless it is asked for") {
+    depth_tiles tiles({8, 80}, 8);
+    tiles.mark({0, 72, 8, 80}, {0.25f, 0.5f});
+    CHECK(tiles.depth(0, 9) == depth_interval{0.25f, 0.5f});
+    CHECK(tiles.depth(0, 8).empty());
+    CHECK(tiles.tiles().guard() == 0);
+    CHECK(tiles.touches({0, 79, 1, 80}, 0.5f));
+    CHECK_FALSE(tiles.touches({0, 79, 1, 80}, 0.25f));
+}
+
 TEST_CASE("a depth that is not known could be any, and a receiver at no depth is before everything") {
     constexpr float nan = test::nan<float>, inf = test::infinity<float>;
     for (const depth_interval unknown : {depth_interval{}, {0.9f, 0.1f}, {nan, 0.5f}, {0.5f, nan}, {nan, nan}}) {

@@ -25,6 +25,7 @@ class oracle {
           set_(static_cast<std::size_t>(columns * rows)) {}
 
     bool test(int column, int row) const { return set_[index(column, row)]; }
+    int tile() const { return tile_; }
     texel_rect bounds() const { return box_; }
     int guard() const { return guard_; }
 
@@ -88,7 +89,7 @@ class oracle {
 
 /// Differences in anything that a grid tells about itself.
 int differences(const tile_grid& grid, const oracle& truth) {
-    int wrong = (grid.columns() != truth.columns) + (grid.rows() != truth.rows);
+    int wrong = (grid.columns() != truth.columns) + (grid.rows() != truth.rows) + (grid.tile() != truth.tile());
     if (wrong != 0) return wrong;
     int set = 0;
     for (int y = 0; y < truth.rows; ++y) {

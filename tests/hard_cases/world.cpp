@@ -201,10 +201,6 @@ TEST_CASE(
     spot([](spot_light& s) { s.far_plane = infinity; });
     spot([](spot_light& s) { s.far_plane = not_a_number; });
     for (const extent bad : {extent{0, 64}, extent{64, -1}, extent{2000000, 64}}) frames.push_back(good.frame(bad));
-    const int largest = light_frame::largest_side;
-    REQUIRE(light_frame(glm::dmat4(1.0), {largest, largest}, 1.0, 1.0).valid());
-    for (const extent bad : {extent{0, 64}, extent{64, 0}, extent{largest + 1, 64}, extent{64, largest + 1}})
-        frames.push_back(light_frame(glm::dmat4(1.0), bad, 1.0, 1.0));
     frames.push_back(good.frame(size, 32));
 
     const auto fit = [&](const glm::dvec3& direction, const bounding_box& box, extent s, int margin) {
@@ -269,7 +265,7 @@ TEST_CASE(
         CHECK(rasterize({corners, indices}, light, everywhere, faces::both, [&](int, int, float) { ++drawn; }).empty());
         CHECK(drawn == 0);
     }
-    CHECK(frames.size() == 47);
+    CHECK(frames.size() == 43);
 }
 
 TEST_CASE("h19_degenerate_matrix_and_w: what is behind a spot light or beside it is nowhere and no divide sees its w") {

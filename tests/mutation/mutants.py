@@ -133,7 +133,8 @@ def edits(text):
             yield from (span(*part, answer) for part in parts[-1:] for answer in ANSWERS[t.text])
         elif t.text == "return":
             end = split(tokens, i, len(tokens))[0][1] if after.text != ";" else i + 1
-            yield span(i, end, "") if end == i + 1 else span(i + 1, end, "{}")
+            if after.text not in ("false", "0") or end > i + 2: # which {} means already
+                yield span(i, end, "") if end == i + 1 else span(i + 1, end, "{}")
         elif t.text in ("break", "continue"):
             yield span(i, i + 1, "")
         if before.text in (";", "{", "}", ")", "else") and t.kind != "string":

@@ -142,6 +142,18 @@ TEST_CASE("a moved-from image is empty and can be filled again") {
     CHECK(second(6, 3) == pixel{6, 3});
 }
 
+TEST_CASE("an image moved onto another of any width brings its own rows along") {
+    for (const int width : {1, 16, 17, 40}) { // one to several lines a row
+        image<pixel> made = numbered({width, 3}), here = numbered({20, 2});
+        const std::ptrdiff_t stride = made.view().stride();
+        here = std::move(made);
+        CHECK(here.view().stride() == stride);
+        for (int y = 0; y < 3; ++y)
+            for (int x = 0; x < width; ++x) CHECK(here(x, y) == pixel{x, y});
+    }
+    CHECK(image<pixel>().view().stride() == 0);
+}
+
 TEST_CASE("an image moved into itself keeps its texels") {
     image<pixel> made = numbered({7, 4});
     image<pixel>& same = made;

@@ -34,6 +34,29 @@ TEST_CASE("lesser and greater give the first of two that are equal or unordered"
     }
 }
 
+TEST_CASE("select gives the first of two if the condition holds and else the second") {
+    CHECK(select(true, 2, 3) == 2);
+    CHECK(select(false, 2, 3) == 3);
+}
+
+TEST_CASE("same is equality, and NaN is the same as nothing") {
+    CHECK(same(2.0f, 2.0f));
+    CHECK(same(0.0f, -0.0f));
+    CHECK_FALSE(same(2.0f, 3.0f));
+    CHECK_FALSE(same(3.0f, 2.0f));
+    CHECK_FALSE(same(test::nan<float>, test::nan<float>));
+    CHECK_FALSE(depth_interval{0.25f, 0.5f} == depth_interval{0.25f, 0.75f});
+    CHECK_FALSE(depth_interval{0.25f, 0.5f} == depth_interval{0.125f, 0.5f});
+}
+
+TEST_CASE("what is first included in a depth interval is all of it, also beyond 0 and 1") {
+    for (const depth_interval first : {depth_interval{1.5f, 2.0f}, {-2.0f, -1.0f}, {0.0f, 0.0f}, {1.0f, 1.0f}}) {
+        depth_interval depths;
+        depths.include(first);
+        CHECK(depths == first);
+    }
+}
+
 TEST_CASE("a depth interval is empty until something is included and then holds all of it") {
     depth_interval depths;
     CHECK(depths.empty());

@@ -54,7 +54,7 @@ class directional_light {
     /// the map. Invalid without casters, with casters that are all one point, and if the margins leave less than two texels.
     [[nodiscard]] light_frame frame(extent size, int margin = 0) const noexcept {
         const double width = size.width, height = size.height, margins = 2.0 * greater(margin, 0);
-        if (!(width - margins >= 2.0) || !(height - margins >= 2.0) || !(x_.lower <= x_.upper)) return {};
+        if (!(width - margins >= 2.0) || !(height - margins >= 2.0)) return {};
         const double texel = stable(greater(x_.length() / (width - margins - 1.0), y_.length() / (height - margins - 1.0)));
         const double cell = stable(greater(z_.length() / (depth_cells - 1.0), texel / depth_cells));
         if (!(texel > 0.0 && cell > 0.0)) return {};
