@@ -72,7 +72,7 @@ class Tree:
         self.compiler = compiler
         self.headers = sorted(p.relative_to(self.include).as_posix() for p in self.include.rglob("*.hpp"))
         self.text = {header: (self.include / header).read_text() for header in self.headers}
-        self.sources = [Test(self, p) for p in sorted(self.tests.glob("*/*.cpp")) if p.parent.name not in ("compile_fail", "odr", "fuzz")]
+        self.sources = [Test(self, p) for p in sorted(self.tests.glob("*/*.cpp")) if p.parent.name not in ("compile_fail", "coverage", "fuzz", "golden", "odr")]
         self.refusals = [Test(self, p) for p in sorted((self.tests / "compile_fail").glob("*.cpp"))]
         self.flavours, self.lock = {}, threading.Lock()
 

@@ -17,7 +17,8 @@ struct paper_depth_mask {
 
     /// What a surface at depth `z` holds in them, to nearest. NaN counts as the far plane.
     template <channel Channel> [[nodiscard]] static constexpr typename Channel::storage encode(float z) noexcept {
-        return Channel::encode(z < 1.0f ? static_cast<double>(z) : 1.0);
+        const bool number = same(z, z); // not z < 1: of that clang 19 for AArch64 makes a minimum, which keeps a signalling NaN
+        return Channel::encode(number ? static_cast<double>(z) : 1.0);
     }
 
     /// Is a surface stored as `a` nearer to the light than one stored as `b`?
