@@ -55,6 +55,8 @@ TEST_CASE("an empty or infinite interval changes nothing - one of a single depth
                                           {-test::infinity<float>, test::infinity<float>},
                                           {test::nan<float>, 0.5f}})
         CHECK(test::same_bits(depth_shear{infinite}(0.25f), 0.25f));
+    CHECK(test::same_bits(depth_shear{{0.0f, 0x1.8p59f}}.span(), 0x1.8p59f));
+    CHECK(test::same_bits(depth_shear{{0.0f, 0x1p60f}}.span(), 1.0f));
     const depth_shear flat{{0.5f, 0.5f}};
     CHECK(test::same_bits(flat(0.5f), 0.0f));
     CHECK(test::same_bits(flat(0.5f + 0x1p-16f), 1.0f));
