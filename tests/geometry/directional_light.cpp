@@ -97,6 +97,14 @@ TEST_CASE("casters keep the margin free on every side, and the map is not larger
     CHECK(tightest < 0.1); // the margin is what was asked for, not more
 }
 
+TEST_CASE("margins must leave two texels of either side") {
+    directional_light sun({0.3, -1.0, 0.2});
+    sun.add_caster(bounding_sphere{{1.0, 2.0, 3.0}, 4.0});
+    for (const extent size : {extent{6, 600}, extent{600, 6}, extent{6, 6}}) CHECK(sun.frame(size, 2).valid());
+    for (const extent size : {extent{5, 600}, extent{600, 5}, extent{4, 600}, extent{600, 4}, extent{0, 600}, extent{600, 0}})
+        CHECK_FALSE(sun.frame(size, 2).valid());
+}
+
 TEST_CASE("a sphere that wanders never changes the size of a texel") {
     dice roll{std::mt19937_64(3)};
     for (const double radius : {0.5, 1.0, 10.0, 33.3, 64.0, 507.5, 1000.0}) { // 1015 texels are left: 507.5 is a step

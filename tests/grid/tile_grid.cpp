@@ -248,8 +248,9 @@ TEST_CASE("dilating by any number of tiles ends, and without marks does nothing"
     CHECK(grid.empty());
     CHECK(grid.guard() == highest);
     grid.mark({50, 20, 51, 21}, 1);
-    grid.dilate(lowest);
+    for (const int tiles : {lowest, -1, 0}) grid.dilate(tiles);
     CHECK(grid.count() == 4);
+    CHECK(grid.guard() == 1);
     grid.dilate(highest);
     CHECK(grid.count() == 50);
     CHECK(grid.bounds() == whole(grid.size()));
