@@ -152,9 +152,12 @@ TEST_CASE_TEMPLATE("a caster stores its depth in its own way and a full mask", T
 TEST_CASE_TEMPLATE("a representation says how its texels round and the texel passes it on", Texel, EVERY_TEXEL) {
     using channel_type = typename Texel::channel_type;
     using representation_type = typename Texel::representation_type;
-    const rounding_error depth = representation_type::template depth_rounding<channel_type>(),
-                         mask = representation_type::template mask_rounding<channel_type>();
-    const caster_rounding caster = representation_type::template depth_of_caster<channel_type>();
+    // Through pointers that may change, or the compiler would answer instead.
+    rounding_error (*volatile depth_rounding)() noexcept = &representation_type::template depth_rounding<channel_type>;
+    rounding_error (*volatile mask_rounding)() noexcept = &representation_type::template mask_rounding<channel_type>;
+    caster_rounding (*volatile depth_of_caster)() noexcept = &representation_type::template depth_of_caster<channel_type>;
+    const rounding_error depth = depth_rounding(), mask = mask_rounding();
+    const caster_rounding caster = depth_of_caster();
     CHECK(test::equal(Texel::depth_rounding.absolute, depth.absolute));
     CHECK(test::equal(Texel::depth_rounding.relative, depth.relative));
     CHECK(test::equal(Texel::mask_rounding.absolute, mask.absolute));
