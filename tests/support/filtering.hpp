@@ -35,7 +35,7 @@ Number convolved(const gnomon::image<Texel>& from, const taps& k, int x, int y, 
 /// A kernel in the hands of one who stores between the passes: every row is rounded to texels, then every column of those.
 /// Sums of whole codes are exact; those of floats are doubles, whose own rounding is far below a texel's.
 template <gnomon::texel_format Texel> gnomon::image<Texel> twice_rounded(const gnomon::image<Texel>& from, const taps& k) {
-    using wide = std::conditional_t<Texel::channel_type::whole_codes, std::uint64_t, double>;
+    using wide = typename Texel::linear_sum;
     const Texel clear = Texel::clear();
     const auto pass = [&](const gnomon::image<Texel>& in, int right, int down) {
         gnomon::image<Texel> out(in.size());

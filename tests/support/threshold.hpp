@@ -17,7 +17,7 @@ namespace test {
 /// whole numbers; a quotient of floats this short cannot come so near a tie that the rounding of the double decides it.
 template <gnomon::texel_format Texel>
 [[nodiscard]] Texel filtered(const Texel& caster, int covered, int taps, const Texel& rest = Texel::clear()) {
-    using sum = std::conditional_t<Texel::channel_type::whole_codes, std::uint64_t, double>;
+    using sum = typename Texel::linear_sum;
     sum sums[static_cast<std::size_t>(Texel::channels)];
     for (int c = 0; c < Texel::channels; ++c)
         sums[c] = static_cast<sum>(covered) * caster.template linear<sum>(c) +

@@ -6,7 +6,6 @@
 #include <gnomon/grid/regions.hpp>
 
 #include <concepts>
-#include <cstdint>
 #include <type_traits>
 #include <vector>
 
@@ -27,7 +26,7 @@ texel_rect halve_region(image_view<T> from, image_view<Texel> to, texel_rect reg
     region = clip(region, from.size());
     if (region.empty()) return {};
     region = clip(texel_rect{region.x0 / 2, region.y0 / 2, region.x1 - region.x1 / 2, region.y1 - region.y1 / 2}, to.size());
-    using wide = std::conditional_t<Texel::channel_type::whole_codes, std::uint64_t, double>;
+    using wide = typename Texel::linear_sum;
     const Texel clear = Texel::clear();
     for (int y = region.y0; y < region.y1; ++y)
         for (int x = region.x0; x < region.x1; ++x) {
@@ -57,8 +56,7 @@ template <texel_format Texel> class pyramid {
     pyramid() = default;
     /// For maps of `size` texels that are marked in tiles of `tile` x `tile`. All levels are clear.
     pyramid(extent size, int tile) : built_(size, tile) {
-        const auto more_than_one = [](extent s) { return s.width > 1 || s.height > 1; };
-        for (size = built_.size(); !size.empty() && more_than_one(size);)
+        for (size = built_.size(); !size.empty() && (size.width > 1 || size.height > 1);)
             levels_.emplace_back(size = half_size(size), Texel::clear());
     }
 

@@ -82,7 +82,7 @@ void sum_columns(image_view<const Texel> from, int y, int x0, int x1, std::span<
 template <kernel Kernel, texel_format Texel>
 void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) noexcept {
     constexpr int channels = Texel::channels;
-    using wide = std::conditional_t<Texel::channel_type::whole_codes, std::uint64_t, double>;
+    using wide = typename Texel::linear_sum;
     constexpr wide whole = static_cast<wide>(Kernel::total) * static_cast<wide>(Kernel::total);
     for (int x = 0; x < width; ++x) {
         wide sums[static_cast<std::size_t>(channels)]{};

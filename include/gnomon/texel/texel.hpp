@@ -107,27 +107,30 @@ template <channel Channel, representation Representation = depth_mask, effects E
     template <typename Number> [[nodiscard]] constexpr Number linear(int c) const noexcept {
         const auto code = static_cast<Number>(Channel::code(stored[c]));
         if constexpr (Representation::premultiplied) return code;
-        const bool depth = c == depth_index || c == far_index;
-        return code * static_cast<Number>(depth ? Channel::code(stored[mask_index]) : Channel::scale);
+        return code * static_cast<Number>(is_depth(c) ? Channel::code(stored[mask_index]) : Channel::scale);
     }
+
+    /// What sums of `linear` are kept in: whole numbers where codes are whole, so that they are exact.
+    using linear_sum = std::conditional_t<Channel::whole_codes, std::uint64_t, double>;
 
     /// The texel whose linear channels are sums / whole: the one rounding of a filter. \pre weights >= 0 that sum to `whole`
     ///
     /// Whole codes are rounded to nearest, halves upwards, from exact integers; half and float as their channel does; a ratio of
     /// two sums is rounded down.
-    template <typename Sum> [[nodiscard]] static constexpr texel from_linear(const Sum* sums, Sum whole) noexcept {
+    [[nodiscard]] static constexpr texel from_linear(const linear_sum* sums, linear_sum whole) noexcept {
         texel t{};
-        for (int c = 0; c < channels; ++c) {
-            if constexpr (!Channel::whole_codes)
-                t.stored[c] = Channel::store(sums[c] / whole);
-            else if constexpr (Representation::premultiplied)
-                t.stored[c] = static_cast<storage>((sums[c] + whole / 2) / whole);
-            else {
-                const auto scale = static_cast<Sum>(Channel::scale);
-                const Sum mask = sums[mask_index] / scale; // exact
-                const bool depth = c == depth_index || c == far_index;
-                if (mask + whole / 2 < whole) return clear();
-                t.stored[c] = static_cast<storage>(depth ? sums[c] / mask : (sums[c] / scale + whole / 2) / whole);
+        if constexpr (!Channel::whole_codes) {
+            for (int c = 0; c < channels; ++c) t.stored[c] = Channel::store(sums[c] / whole);
+        } else {
+            const auto nearest = [whole](linear_sum sum) { return static_cast<storage>((sum + whole / 2) / whole); };
+            if constexpr (Representation::premultiplied) {
+                for (int c = 0; c < channels; ++c) t.stored[c] = nearest(sums[c]);
+            } else {
+                constexpr auto scale = static_cast<linear_sum>(Channel::scale);
+                const linear_sum mask = sums[mask_index] / scale; // exact
+                if (nearest(mask) == 0) return clear();
+                for (int c = 0; c < channels; ++c)
+                    t.stored[c] = is_depth(c) ? static_cast<storage>(sums[c] / mask) : nearest(sums[c] / scale);
             }
         }
         return t;
@@ -140,6 +143,7 @@ template <channel Channel, representation Representation = depth_mask, effects E
     }
 
   private:
+    [[nodiscard]] static constexpr bool is_depth(int c) noexcept { return c == depth_index || c == far_index; }
     [[nodiscard]] constexpr bool nearer(const texel& incoming) const noexcept {
         const storage here = stored[depth_index], there = incoming.stored[depth_index];
         if constexpr (Effects.translucency)
