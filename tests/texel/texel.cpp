@@ -173,6 +173,19 @@ TEST_CASE_TEMPLATE("a representation says how its texels round and the texel pas
     }
 }
 
+TEST_CASE_TEMPLATE("a receiver at the depth of its caster is lit and one float behind it is in shadow", Representation, depth_mask,
+                   depth_ratio, paper_depth_mask) {
+    sweep wrong;
+    for (int m = 1; m <= 256; m *= 2) // so that a float holds the depth 1 - e/m, and nothing is rounded
+        for (int e = 0; e <= m; ++e) {
+            const double depth = e, mask = m;
+            const auto s = static_cast<float>((mask - depth) / mask);
+            for (const float z : {test::down(s), s, test::up(s)})
+                wrong.unless(Representation::behind(depth, mask, static_cast<double>(z)) == (z > s), "e", e, "m", m, "z", z);
+        }
+    CHECK(wrong.report() == "");
+}
+
 TEST_CASE_TEMPLATE("a caster outside of 0 to 1 is clamped and one at NaN is at the far plane", Texel, EVERY_TEXEL) {
     for (const float s : {-test::infinity<float>, -1.0f, -test::smallest<float>, -0.0f})
         CHECK(Texel::caster(s) == Texel::caster(0.0f));

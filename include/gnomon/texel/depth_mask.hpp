@@ -43,7 +43,7 @@ struct depth_mask {
     /// form rounds nothing when z >= 1/2, the second rounds m - e only where that cannot change the answer.
     /// NaN anywhere compares false: lit. z = +inf counts as behind everything, z = -inf as before everything.
     template <typename Real> [[nodiscard]] static constexpr bool behind(Real e, Real m, Real z) noexcept {
-        return select(z<Real(0.5), m * z> m - e, e > m * (Real(1) - z));
+        return select((z < Real(0.5)), m * z > m - e, e > m * (Real(1) - z));
     }
 };
 
