@@ -129,11 +129,13 @@ TEST_CASE("weights are apportioned at run time as by the compiler") {
     each(gaussian<4>{}, bell);
 }
 
-TEST_CASE("what is left over after pairs goes to the centre, and the rest to the largest remainders") {
+TEST_CASE("what is left over after pairs goes to the centre, and the rest to the largest remainders, of equals to the inner ones") {
     const std::array third{1.0, 1.0}; // 21845.33 each, so one unit is left
     CHECK(gnomon::detail::apportion<1>(third) == std::array{21845, 21846, 21845});
     const std::array fifth{1.0, 0.9, 1.1}; // 13107.2, 11796.48, 14417.92: three units are left
     CHECK(gnomon::detail::apportion<2>(fifth) == std::array{14418, 11796, 13108, 11796, 14418});
+    const std::array eleventh{1.0, 1.0, 1.0, 1.0, 1.0, 1.0}; // 5957.8 each: nine are left, for the centre and four pairs of five
+    CHECK(gnomon::detail::apportion<5>(eleventh) == std::array{5957, 5958, 5958, 5958, 5958, 5958, 5958, 5958, 5958, 5958, 5957});
 }
 
 TEST_CASE("exp_minus is the exponential to 2e-15") {
