@@ -7,6 +7,7 @@ const char* sentence_of_the_failed = "";
 #define GNOMON_ASSERT(condition, sentence) ((condition) ? void() : (++failed, sentence_of_the_failed = (sentence), void()))
 #include <gnomon/backend/backend.hpp>
 #include <gnomon/backend/scalar.hpp>
+#include <gnomon/filter/pyramid.hpp>
 #include <gnomon/filter/separable.hpp>
 #include <gnomon/grid/reference_grid.hpp>
 #include <gnomon/grid/regions.hpp>
@@ -90,4 +91,23 @@ TEST_CASE("a filter of images and tiles that differ in size is a wrong call unle
     CHECK(complaint() == sentence);
     filter(scalar{}, from.view(), to.view(), tile_grid({4, 2}, 4), scratch);
     CHECK(complaint() == sentence);
+}
+
+TEST_CASE("a pyramid of a map or of tiles that it was not made for is a wrong call") {
+    const image<rg8> map({8, 2}, rg8::clear()), small({8, 1}, rg8::clear());
+    const tile_grid tiles({8, 2}, 4);
+    pyramid<rg8> mips({8, 2}, 4);
+    mips.build(map.view(), tiles);
+    (void)sample(map.view(), mips, 1.0f, 1.0f, 1.0f);
+    (void)sample(map.view(), pyramid<rg8>(), 1.0f, 1.0f, 1.0f); // no levels: the map alone
+    CHECK(complaint() == "");
+    const std::string built = "gnomon: a pyramid is built for one size of map and of tile";
+    mips.build(small.view(), tiles);
+    CHECK(complaint() == built);
+    mips.build(map.view(), tile_grid({8, 1}, 4));
+    CHECK(complaint() == built);
+    mips.build(map.view(), tile_grid({8, 2}, 8));
+    CHECK(complaint() == built);
+    (void)sample(small.view(), mips, 1.0f, 1.0f, 1.0f);
+    CHECK(complaint() == "gnomon: a pyramid is sampled together with the map it was built from");
 }

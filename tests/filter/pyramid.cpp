@@ -10,6 +10,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -141,6 +142,29 @@ TEST_CASE("a region off the level halves to nothing and writes nothing") {
         CHECK(halve_region(from.view(), to.view(), off).empty());
     CHECK(test::differences(to, image<rg8>({2, 2}, rg8::clear())) == 0);
     CHECK(halve_region(from.view(), to.view(), {3, 3, 9, 9}) == texel_rect{1, 1, 2, 2});
+}
+
+TEST_CASE("halving a region writes the texels that lie over its texels and no other") {
+    dice roll(67);
+    int written = 0;
+    for (int round = 0; round < 3000; ++round) {
+        const extent size{roll(1, 19), roll(1, 19)};
+        const image<rg8> from(size, rg8::caster(0.0f));
+        image<rg8> to({roll(0, 12), roll(0, 12)}, rg8::clear()), expected = to;
+        const texel_rect region = roll.rect(size, 3);
+        test::for_each_texel(clip(region, size), [&](int x, int y) {
+            if (whole(to.size()).contains(x / 2, y / 2)) expected(x / 2, y / 2) = rg8::caster(0.0f);
+        });
+        const texel_rect wrote = halve_region(from.view(), to.view(), region);
+        int differences = 0;
+        test::for_each_texel(whole(to.size()), [&](int x, int y) {
+            const bool over = expected(x, y).occupied();
+            differences += to(x, y).occupied() != over || wrote.contains(x, y) != over;
+            written += over;
+        });
+        CHECK(differences == 0);
+    }
+    CHECK(written > 2000);
 }
 
 TEST_CASE("a map without texels on either side builds nothing and samples as clear") {
@@ -287,8 +311,9 @@ TEST_CASE_TEMPLATE("at a whole lod a sample is the sample of that level and betw
     for (int i = 0; i < 20'000; ++i) {
         const float x = 48.0f * roll.unit() - 4.0f, y = 32.0f * roll.unit() - 4.0f;
         const int part = roll.one_in(3) ? 0 : roll(0, 255), l = roll(0, mips.coarsest() - 1);
-        const float size = std::ldexp(1.0f, -l);
-        const filtered<Texel> f = sample(base.view(), mips, x, y, static_cast<float>(l) + static_cast<float>(part) / 256.0f);
+        const float size = std::ldexp(1.0f, -l), beside = (roll.unit() - 0.5f) * 0.99f; // to the nearest 1/256
+        const filtered<Texel> f =
+            sample(base.view(), mips, x, y, static_cast<float>(l) + (static_cast<float>(part) + beside) / 256.0f);
         const filtered<Texel> fine = sample(level(base, mips, l), x * size, y * size),
                               coarse = sample(level(base, mips, l + 1), x * size / 2.0f, y * size / 2.0f);
         for (int c = 0; c < Texel::channels; ++c) {
@@ -298,6 +323,27 @@ TEST_CASE_TEMPLATE("at a whole lod a sample is the sample of that level and betw
         wrong.unless(f.depth() >= 0.0 && f.depth() <= f.mask(), "e > m at", x, y);
     }
     CHECK(wrong.report() == "");
+}
+
+TEST_CASE("a blend of float levels is within 2^-45 of the exact one and most of that is reached") {
+    dice roll(68);
+    image<rg32f> base({16, 16});
+    test::for_each_texel(whole(base.size()), [&](int x, int y) { // digits of many magnitudes: a sample has all 53 bits
+        base(x, y).stored[1] = roll.one_in(2) ? 0.5f : roll.unit() * std::ldexp(1.0f, -roll(8, 20));
+    });
+    const pyramid<rg32f> mips = built(base);
+    long double worst = 0.0L;
+    for (int i = 0; i < 100'000; ++i) {
+        const float x = 16.0f * roll.unit(), y = 16.0f * roll.unit();
+        const int part = roll(1, 255);
+        const long double fine = static_cast<long double>(sample(base.view(), x, y).mask()),
+                          coarse = static_cast<long double>(sample(mips.level(1), x / 2.0f, y / 2.0f).mask()),
+                          exact = ((256 - part) * fine + part * coarse) / 256.0L;
+        const double found = sample(base.view(), mips, x, y, static_cast<float>(part) / 256.0f).mask();
+        worst = std::max(worst, std::fabs(static_cast<long double>(found) - exact) / exact);
+    }
+    CHECK(worst <= 0x1p-45L);
+    CHECK(worst > 0x1p-45L * 0.9L);
 }
 
 TEST_CASE("a lod below 0 or NaN is level 0 and one beyond the last is the last") {

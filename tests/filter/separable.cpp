@@ -125,21 +125,24 @@ TEST_CASE_TEMPLATE("a filtered half or float map is rounded once from a sum with
 TEST_CASE_TEMPLATE("before its rounding, a float sum really uses the 2^-35 it is given", Channel, gnomon::float32) {
     dice roll(64);
     using Texel = gnomon::texel<Channel>;
-    long double worst = 0;
-    for (int i = 0; i < 4000; ++i) {
-        image<Texel> from({1, 3}, Texel::clear());
-        for (int y = 0; y < 3; ++y)
-            from(0, y).stored[0] =
-                roll.unit() * std::ldexp(1.0f, -roll(0, 24)); // digits of many magnitudes: the sum needs them all
-        std::vector<double> line(2 * 3);
-        gnomon::detail::sum_columns<box<1>, Texel>(from.view(), 1, -1, 2, line);
-        long double exact = 0;
-        for (int y = 0; y < 3; ++y) exact += static_cast<long double>(from(0, y).stored[0]);
-        if (exact > 0) worst = std::max(worst, std::fabs(static_cast<long double>(line[2]) - exact) / exact);
+    for (const std::size_t column : {0u, 1u}) { // the first of the line and the last
+        long double worst = 0;
+        for (int i = 0; i < 4000; ++i) {
+            image<Texel> from({3, 3}, Texel::clear());
+            long double exact = 0;
+            for (int y = 0; y < 3; ++y) { // digits of many magnitudes: the sum needs them all
+                const float e = roll.unit() * std::ldexp(1.0f, -roll(0, 24));
+                from(1 + static_cast<int>(column), y).stored[0] = e;
+                exact += static_cast<long double>(e);
+            }
+            std::vector<double> line(2 * 2);
+            gnomon::detail::sum_columns<box<1>, Texel>(from.view(), 1, 1, 3, line);
+            if (exact > 0) worst = std::max(worst, std::fabs(static_cast<long double>(line[2 * column]) - exact) / exact);
+        }
+        CHECK(worst <= 0x1p-36L);
+        CHECK(worst > 0x1p-36L * 0.9L);
     }
-    CHECK(worst <= 0x1p-36L);
-    CHECK(worst > 0x1p-36L * 0.9L);
-    worst = 0;
+    long double worst = 0;
     for (int i = 0; i < 100000; ++i) {
         const double v = 1.0 + static_cast<double>(roll.unit()) + static_cast<double>(roll.unit()) * 0x1p-24;
         const double cut = gnomon::detail::to_bits<36>(v);
@@ -150,6 +153,22 @@ TEST_CASE_TEMPLATE("before its rounding, a float sum really uses the 2^-35 it is
     }
     CHECK(worst <= 0x1p-36L);
     CHECK(worst > 0x1p-36L * 0.99L);
+}
+
+TEST_CASE("a double is cut to so many bits upwards from a half on") {
+    CHECK(test::same_bits(gnomon::detail::to_bits<36>(1.0 + 0x1p-36), 1.0 + 0x1p-35));
+    CHECK(test::same_bits(gnomon::detail::to_bits<36>(test::down(1.0 + 0x1p-36)), 1.0));
+}
+
+TEST_CASE("a scratch is a line as wide as the map and the kernel's radius on both sides of it") {
+    CHECK(gnomon::filter_scratch_size<gnomon::rg8, box<0>>(7) == 2 * 7);
+    CHECK(gnomon::filter_scratch_size<gnomon::rgba16f, tent<5>>(7) == 4 * (5 + 7 + 5));
+    CHECK(gnomon::filter_scratch_size<gnomon::rgba16f, tent<5>>(0) == 4 * (5 + 5));
+    CHECK(gnomon::filter_scratch_size<gnomon::rgba16f, tent<5>>(-7) == 4 * (5 + 5));
+    // 65535 * 65536 < 2^32, so only products of 16-bit codes need 64 bits.
+    CHECK(sizeof(gnomon::line_element<gnomon::rg16>) == 4);
+    CHECK(sizeof(gnomon::line_element<gnomon::tm8>) == 4);
+    CHECK(sizeof(gnomon::line_element<gnomon::tm16>) == 8);
 }
 
 TEST_CASE_TEMPLATE("after any filter 0 <= e <= m, and no far bound lies before its caster", Texel, gnomon::rgb8, gnomon::rgba16,
@@ -237,11 +256,12 @@ TEST_CASE("without asserts, filtering an image into itself leaves it as it was")
     CHECK(test::differences(both, before) == 0);
 }
 
-TEST_CASE("without asserts, a scratch of nothing filters nothing") {
+TEST_CASE("without asserts, a scratch of nothing or of the radius on both sides alone filters nothing") {
     const image<gnomon::rg8> from({4, 4}, gnomon::rg8::caster(0.5f));
     image<gnomon::rg8> to({4, 4}, gnomon::rg8::clear());
-    filter_scratch<gnomon::rg8, box<1>> none;
+    filter_scratch<gnomon::rg8, box<1>> none, sides(0);
     gnomon::filter_region(from.view(), to.view(), whole(to.size()), none);
+    gnomon::filter_region(from.view(), to.view(), whole(to.size()), sides);
     CHECK(test::differences(to, image<gnomon::rg8>({4, 4}, gnomon::rg8::clear())) == 0);
 }
 #endif

@@ -24,7 +24,6 @@ template <typename T, texel_format Texel>
     requires std::same_as<std::remove_const_t<T>, Texel>
 texel_rect halve_region(image_view<T> from, image_view<Texel> to, texel_rect region) noexcept {
     region = clip(region, from.size());
-    if (region.empty()) return {};
     region = clip(texel_rect{region.x0 / 2, region.y0 / 2, region.x1 - region.x1 / 2, region.y1 - region.y1 / 2}, to.size());
     using wide = typename Texel::linear_sum;
     const Texel clear = Texel::clear();

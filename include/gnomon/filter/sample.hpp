@@ -44,6 +44,7 @@ template <texel_format Texel> [[nodiscard]] constexpr filtered<Texel> read(const
 ///
 /// Positions are taken to 1/256 texel, as texture units do, so the blend is exact for unorm and half texels; the error of position
 /// is at most 1/512 texel. Clear lies off the map; NaN and infinities are off the map. Keeps e <= m.
+/// \pre at most 2^22 texels a side
 template <typename T>
     requires texel_format<std::remove_const_t<T>>
 [[nodiscard]] filtered<std::remove_const_t<T>> sample(image_view<T> map, float x, float y) noexcept {
@@ -51,7 +52,6 @@ template <typename T>
     constexpr int steps = 256;
     const filtered<Texel> clear = read(Texel::clear());
     const double px = static_cast<double>(x), py = static_cast<double>(y);
-    if (!(px > -1.0 && px < map.width() + 1.0 && py > -1.0 && py < map.height() + 1.0)) return clear;
     const int u = detail::floor_to_int((px - 0.5) * steps + 0.5);
     const int v = detail::floor_to_int((py - 0.5) * steps + 0.5);
     const int column = u >> 8, row = v >> 8;
