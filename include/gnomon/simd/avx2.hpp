@@ -1,0 +1,134 @@
+// gnomon: soft shadow maps. Lanes of AVX2, FMA and F16C: 32 bytes at a time. See emulated.hpp for what they mean.
+#pragma once
+
+#include <gnomon/simd/region.hpp>
+#if GNOMON_X86
+#include <gnomon/texel/channel.hpp>
+
+#include <concepts>
+#include <cstdint>
+#include <cstring>
+#include <immintrin.h>
+
+GNOMON_TARGET_BEGIN("avx2,fma,f16c")
+namespace gnomon {
+
+struct avx2 {
+    static constexpr int bytes = 32;
+    static constexpr int float_lanes = 8;
+    static constexpr int double_lanes = 4;
+    using ints = __m256i;
+    using floats = __m256;
+    using masks = __m256;
+    using doubles = __m256d;
+
+    GNOMON_LANES ints load(const void* from) noexcept { return _mm256_loadu_si256(static_cast<const __m256i*>(from)); }
+    GNOMON_LANES_VOID void store(void* to, ints a) noexcept { _mm256_storeu_si256(static_cast<__m256i*>(to), a); }
+    GNOMON_LANES ints repeat32(std::uint32_t v) noexcept { return _mm256_set1_epi32(static_cast<int>(v)); }
+    GNOMON_LANES ints exclusive_or(ints a, ints b) noexcept { return _mm256_xor_si256(a, b); }
+
+    GNOMON_LANES ints even_pairs8(ints a, ints b) noexcept {
+        return _mm256_blendv_epi8(_mm256_slli_epi16(b, 8), a, _mm256_set1_epi16(255));
+    }
+    GNOMON_LANES ints odd_pairs8(ints a, ints b) noexcept {
+        return _mm256_blendv_epi8(b, _mm256_srli_epi16(a, 8), _mm256_set1_epi16(255));
+    }
+    GNOMON_LANES ints multiply_pairs8(ints weights, ints values) noexcept { return _mm256_maddubs_epi16(weights, values); }
+    GNOMON_LANES ints add16(ints a, ints b) noexcept { return _mm256_add_epi16(a, b); }
+    GNOMON_LANES ints add_dot16(ints sum, ints weights, ints values) noexcept {
+        return _mm256_add_epi32(sum, _mm256_madd_epi16(weights, values));
+    }
+    GNOMON_LANES ints interleave_byte2(ints a, ints b, ints c, ints d) noexcept {
+        const ints ab =
+            _mm256_or_si256(_mm256_srli_epi32(a, 16), _mm256_and_si256(_mm256_srli_epi32(b, 8), _mm256_set1_epi32(0xFF00)));
+        const ints cd =
+            _mm256_or_si256(_mm256_and_si256(c, _mm256_set1_epi32(0xFF0000)), _mm256_slli_epi32(_mm256_srli_epi32(d, 16), 24));
+        return _mm256_or_si256(ab, cd);
+    }
+    GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
+
+    GNOMON_LANES floats load(const float* from) noexcept { return _mm256_loadu_ps(from); }
+    GNOMON_LANES_VOID void store(float* to, floats a) noexcept { _mm256_storeu_ps(to, a); }
+    GNOMON_LANES floats repeat(float v) noexcept { return _mm256_set1_ps(v); }
+    GNOMON_LANES floats add(floats a, floats b) noexcept { return _mm256_add_ps(a, b); }
+    GNOMON_LANES floats subtract(floats a, floats b) noexcept { return _mm256_sub_ps(a, b); }
+    GNOMON_LANES floats fraction(floats a, float b) noexcept { // the product is within an ulp, and what it lacks is exact
+        const floats by = _mm256_set1_ps(b), inverse = _mm256_set1_ps(1.0f / b), q = _mm256_mul_ps(a, inverse);
+        return _mm256_fmadd_ps(_mm256_fnmadd_ps(q, by, a), inverse, q);
+    }
+    GNOMON_LANES masks greater(floats a, floats b) noexcept { return _mm256_cmp_ps(a, b, _CMP_GT_OQ); }
+    GNOMON_LANES masks not_greater(floats a, floats b) noexcept { return _mm256_cmp_ps(a, b, _CMP_NGT_UQ); }
+    GNOMON_LANES masks positive(floats a, floats b, floats c) noexcept { // rounded once, a sum keeps its sign
+        return greater(_mm256_fmadd_ps(a, b, c), _mm256_setzero_ps());
+    }
+    GNOMON_LANES masks both(masks a, masks b) noexcept { return _mm256_and_ps(a, b); }
+    GNOMON_LANES floats keep(masks where, floats a) noexcept { return _mm256_and_ps(where, a); }
+    template <channel Channel, int Channels> GNOMON_LANES floats codes_of(const typename Channel::storage* from, int c) noexcept {
+        if constexpr (std::same_as<Channel, unorm8> && Channels == 2) {
+            const ints pairs = _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
+            return _mm256_cvtepi32_ps(c == 0 ? _mm256_and_si256(pairs, _mm256_set1_epi32(255)) : _mm256_srli_epi32(pairs, 8));
+        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 2) {
+            const ints pairs = load(from);
+            return _mm256_cvtepi32_ps(c == 0 ? _mm256_and_si256(pairs, _mm256_set1_epi32(65535)) : _mm256_srli_epi32(pairs, 16));
+        } else {
+            float lane[static_cast<std::size_t>(float_lanes)];
+            for (int i = 0; i < float_lanes; ++i) lane[i] = Channel::code(from[i * Channels + c]);
+            return load(lane);
+        }
+    }
+
+    GNOMON_LANES doubles load(const double* from) noexcept { return _mm256_loadu_pd(from); }
+    GNOMON_LANES_VOID void store(double* to, doubles a) noexcept { _mm256_storeu_pd(to, a); }
+    GNOMON_LANES doubles repeat(double v) noexcept { return _mm256_set1_pd(v); }
+    GNOMON_LANES doubles add(doubles a, doubles b) noexcept { return _mm256_add_pd(a, b); }
+    GNOMON_LANES doubles multiply(doubles a, doubles b) noexcept { return _mm256_mul_pd(a, b); }
+    GNOMON_LANES doubles divide(doubles a, doubles b) noexcept { return _mm256_div_pd(a, b); }
+    GNOMON_LANES doubles add_product(doubles sum, doubles a, doubles b) noexcept { return _mm256_fmadd_pd(a, b, sum); }
+    GNOMON_LANES doubles add_and_mask(doubles a, std::uint64_t addend, std::uint64_t mask) noexcept {
+        const ints sum = _mm256_add_epi64(_mm256_castpd_si256(a), _mm256_set1_epi64x(static_cast<long long>(addend)));
+        return _mm256_castsi256_pd(_mm256_and_si256(sum, _mm256_set1_epi64x(static_cast<long long>(mask))));
+    }
+
+    template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {
+        if constexpr (std::same_as<Channel, unorm8>) {
+            int four;
+            std::memcpy(&four, from, sizeof four);
+            return _mm256_cvtepi32_pd(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(four)));
+        } else if constexpr (std::same_as<Channel, unorm16>) {
+            return _mm256_cvtepi32_pd(_mm_cvtepu16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
+        } else if constexpr (std::same_as<Channel, half16>) {
+            return _mm256_cvtps_pd(_mm_cvtph_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
+        } else {
+            static_assert(std::same_as<Channel, float32>, "gnomon: lanes know unorm8, unorm16, half16 and float32");
+            return _mm256_cvtps_pd(_mm_loadu_ps(from));
+        }
+    }
+    template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, doubles a) noexcept {
+        if constexpr (std::same_as<Channel, unorm8>) {
+            const __m128i words = _mm_packus_epi32(_mm256_cvttpd_epi32(a), _mm_setzero_si128());
+            const int four = _mm_cvtsi128_si32(_mm_packus_epi16(words, words));
+            std::memcpy(to, &four, sizeof four);
+        } else if constexpr (std::same_as<Channel, unorm16>) {
+            const __m128i words = _mm_packus_epi32(_mm256_cvttpd_epi32(a), _mm_setzero_si128());
+            _mm_storel_epi64(reinterpret_cast<__m128i*>(to), words);
+        } else if constexpr (std::same_as<Channel, half16>) {
+            const __m128i halves = _mm_cvtps_ph(_mm256_cvtpd_ps(to_odd(a)), _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+            _mm_storel_epi64(reinterpret_cast<__m128i*>(to), halves);
+        } else {
+            static_assert(std::same_as<Channel, float32>, "gnomon: lanes know unorm8, unorm16, half16 and float32");
+            _mm_storeu_ps(to, _mm_add_ps(_mm256_cvtpd_ps(a), _mm_setzero_ps()));
+        }
+    }
+
+  private:
+    /// Cut to the 24 bits of a float, the last one set if anything was lost: rounding that to a half rounds once.
+    GNOMON_LANES doubles to_odd(doubles a) noexcept {
+        const ints lost = _mm256_set1_epi64x((1 << 29) - 1), bits = _mm256_castpd_si256(a);
+        const ints carried = _mm256_add_epi64(_mm256_and_si256(bits, lost), lost);
+        return _mm256_castsi256_pd(_mm256_andnot_si256(lost, _mm256_or_si256(bits, carried)));
+    }
+};
+
+} // namespace gnomon
+GNOMON_TARGET_END
+#endif

@@ -1,0 +1,130 @@
+// gnomon: soft shadow maps. Lanes of AVX-512 as of Ice Lake and Zen 4: 64 bytes at a time. See emulated.hpp for what they mean.
+#pragma once
+
+#include <gnomon/simd/region.hpp>
+#if GNOMON_X86
+#include <gnomon/texel/channel.hpp>
+
+#include <concepts>
+#include <cstdint>
+#include <cstring>
+#include <immintrin.h>
+
+#define GNOMON_AVX512 "avx2,fma,f16c,avx512f,avx512bw,avx512dq,avx512vl,avx512vnni"
+GNOMON_TARGET_BEGIN(GNOMON_AVX512)
+namespace gnomon {
+
+struct avx512 {
+    static constexpr int bytes = 64;
+    static constexpr int float_lanes = 16;
+    static constexpr int double_lanes = 8;
+    using ints = __m512i;
+    using floats = __m512;
+    using masks = __mmask16;
+    using doubles = __m512d;
+
+    GNOMON_LANES ints load(const void* from) noexcept { return _mm512_loadu_si512(from); }
+    GNOMON_LANES_VOID void store(void* to, ints a) noexcept { _mm512_storeu_si512(to, a); }
+    GNOMON_LANES ints repeat32(std::uint32_t v) noexcept { return _mm512_set1_epi32(static_cast<int>(v)); }
+    GNOMON_LANES ints exclusive_or(ints a, ints b) noexcept { return _mm512_xor_si512(a, b); }
+
+    GNOMON_LANES ints even_pairs8(ints a, ints b) noexcept { return chosen(_mm512_set1_epi16(255), a, _mm512_slli_epi16(b, 8)); }
+    GNOMON_LANES ints odd_pairs8(ints a, ints b) noexcept { return chosen(_mm512_set1_epi16(255), _mm512_srli_epi16(a, 8), b); }
+    GNOMON_LANES ints multiply_pairs8(ints weights, ints values) noexcept { return _mm512_maddubs_epi16(weights, values); }
+    GNOMON_LANES ints add16(ints a, ints b) noexcept { return _mm512_add_epi16(a, b); }
+    GNOMON_LANES ints add_dot16(ints sum, ints weights, ints values) noexcept { return _mm512_dpwssd_epi32(sum, weights, values); }
+    GNOMON_LANES ints interleave_byte2(ints a, ints b, ints c, ints d) noexcept {
+        const ints ab = chosen(_mm512_set1_epi32(0xFF00), _mm512_maskz_srli_epi32(all, b, 8), _mm512_maskz_srli_epi32(all, a, 16));
+        const ints cd = chosen(_mm512_set1_epi32(0xFF0000), c, _mm512_maskz_slli_epi32(all, d, 8));
+        return chosen(_mm512_set1_epi32(0xFFFF), ab, cd);
+    }
+    GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
+
+    GNOMON_LANES floats load(const float* from) noexcept { return _mm512_loadu_ps(from); }
+    GNOMON_LANES_VOID void store(float* to, floats a) noexcept { _mm512_storeu_ps(to, a); }
+    GNOMON_LANES floats repeat(float v) noexcept { return _mm512_set1_ps(v); }
+    GNOMON_LANES floats add(floats a, floats b) noexcept { return _mm512_add_ps(a, b); }
+    GNOMON_LANES floats subtract(floats a, floats b) noexcept { return _mm512_sub_ps(a, b); }
+    GNOMON_LANES floats fraction(floats a, float b) noexcept { // the product is within an ulp, and what it lacks is exact
+        const floats by = _mm512_set1_ps(b), inverse = _mm512_set1_ps(1.0f / b), q = _mm512_mul_ps(a, inverse);
+        return _mm512_fmadd_ps(_mm512_fnmadd_ps(q, by, a), inverse, q);
+    }
+    GNOMON_LANES masks greater(floats a, floats b) noexcept { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
+    GNOMON_LANES masks not_greater(floats a, floats b) noexcept { return _mm512_cmp_ps_mask(a, b, _CMP_NGT_UQ); }
+    GNOMON_LANES masks positive(floats a, floats b, floats c) noexcept { // rounded once, a sum keeps its sign
+        return greater(_mm512_fmadd_ps(a, b, c), _mm512_setzero_ps());
+    }
+    GNOMON_LANES masks both(masks a, masks b) noexcept { return static_cast<masks>(a & b); }
+    GNOMON_LANES floats keep(masks where, floats a) noexcept { return _mm512_maskz_mov_ps(where, a); }
+    template <channel Channel, int Channels> GNOMON_LANES floats codes_of(const typename Channel::storage* from, int c) noexcept {
+        if constexpr (std::same_as<Channel, unorm8> && Channels == 2) {
+            const ints pairs = _mm512_maskz_cvtepu16_epi32(all, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
+            return number(c == 0 ? _mm512_and_si512(pairs, _mm512_set1_epi32(255)) : _mm512_maskz_srli_epi32(all, pairs, 8));
+        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 2) {
+            const ints pairs = load(from);
+            return number(c == 0 ? _mm512_and_si512(pairs, _mm512_set1_epi32(65535)) : _mm512_maskz_srli_epi32(all, pairs, 16));
+        } else {
+            float lane[static_cast<std::size_t>(float_lanes)];
+            for (int i = 0; i < float_lanes; ++i) lane[i] = Channel::code(from[i * Channels + c]);
+            return load(lane);
+        }
+    }
+
+    GNOMON_LANES doubles load(const double* from) noexcept { return _mm512_loadu_pd(from); }
+    GNOMON_LANES_VOID void store(double* to, doubles a) noexcept { _mm512_storeu_pd(to, a); }
+    GNOMON_LANES doubles repeat(double v) noexcept { return _mm512_set1_pd(v); }
+    GNOMON_LANES doubles add(doubles a, doubles b) noexcept { return _mm512_add_pd(a, b); }
+    GNOMON_LANES doubles multiply(doubles a, doubles b) noexcept { return _mm512_mul_pd(a, b); }
+    GNOMON_LANES doubles divide(doubles a, doubles b) noexcept { return _mm512_div_pd(a, b); }
+    GNOMON_LANES doubles add_product(doubles sum, doubles a, doubles b) noexcept { return _mm512_fmadd_pd(a, b, sum); }
+    GNOMON_LANES doubles add_and_mask(doubles a, std::uint64_t addend, std::uint64_t mask) noexcept {
+        const ints sum = _mm512_add_epi64(_mm512_castpd_si512(a), _mm512_set1_epi64(static_cast<long long>(addend)));
+        return _mm512_castsi512_pd(_mm512_and_si512(sum, _mm512_set1_epi64(static_cast<long long>(mask))));
+    }
+
+    template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {
+        if constexpr (std::same_as<Channel, unorm8>) {
+            return _mm512_maskz_cvtepi32_pd(eight, _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
+        } else if constexpr (std::same_as<Channel, unorm16>) {
+            return _mm512_maskz_cvtepi32_pd(eight, _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
+        } else if constexpr (std::same_as<Channel, half16>) {
+            return _mm512_maskz_cvtps_pd(eight, _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
+        } else {
+            static_assert(std::same_as<Channel, float32>, "gnomon: lanes know unorm8, unorm16, half16 and float32");
+            return _mm512_maskz_cvtps_pd(eight, _mm256_loadu_ps(from));
+        }
+    }
+    template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, doubles a) noexcept {
+        if constexpr (std::same_as<Channel, unorm8>) {
+            _mm_storel_epi64(reinterpret_cast<__m128i*>(to),
+                             _mm256_maskz_cvtepi32_epi8(eight, _mm512_maskz_cvttpd_epi32(eight, a)));
+        } else if constexpr (std::same_as<Channel, unorm16>) {
+            _mm_storeu_si128(reinterpret_cast<__m128i*>(to),
+                             _mm256_maskz_cvtepi32_epi16(eight, _mm512_maskz_cvttpd_epi32(eight, a)));
+        } else if constexpr (std::same_as<Channel, half16>) {
+            const __m128i halves =
+                _mm256_cvtps_ph(_mm512_maskz_cvtpd_ps(eight, to_odd(a)), _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+            _mm_storeu_si128(reinterpret_cast<__m128i*>(to), halves);
+        } else {
+            static_assert(std::same_as<Channel, float32>, "gnomon: lanes know unorm8, unorm16, half16 and float32");
+            _mm256_storeu_ps(to, _mm256_add_ps(_mm512_maskz_cvtpd_ps(eight, a), _mm256_setzero_ps()));
+        }
+    }
+
+  private:
+    static constexpr __mmask8 eight = 0xFF;
+    static constexpr __mmask16 all = 0xFFFF; // g++ 12 warns of the undefined register that the forms without a mask begin with
+    GNOMON_LANES floats number(ints a) noexcept { return _mm512_maskz_cvtepi32_ps(all, a); }
+    /// `a` where the mask has ones, `b` where it has none.
+    GNOMON_LANES ints chosen(ints mask, ints a, ints b) noexcept { return _mm512_ternarylogic_epi32(mask, a, b, 0xCA); }
+    /// Cut to the 24 bits of a float, the last one set if anything was lost: rounding that to a half rounds once.
+    GNOMON_LANES doubles to_odd(doubles a) noexcept {
+        const ints lost = _mm512_set1_epi64((1 << 29) - 1), bits = _mm512_castpd_si512(a);
+        const ints carried = _mm512_add_epi64(_mm512_and_si512(bits, lost), lost);
+        return _mm512_castsi512_pd(chosen(lost, _mm512_setzero_si512(), _mm512_or_si512(bits, carried)));
+    }
+};
+
+} // namespace gnomon
+GNOMON_TARGET_END
+#endif

@@ -1,0 +1,188 @@
+// gnomon: soft shadow maps. Lanes that are arrays: what every operation means, on any machine and at any width.
+#pragma once
+
+#include <gnomon/simd/region.hpp>
+#include <gnomon/texel/channel.hpp>
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace gnomon {
+
+/// A register of `Bytes` bytes: whole numbers of 8, 16 or 32 bits in one type, as processors have it, and doubles.
+///
+/// This is the list of a `simd_isa`, and its specification: each target gives the same bits. Loads and stores take any alignment.
+template <int Bytes> struct emulated {
+    static_assert(Bytes >= 16 && Bytes % 16 == 0, "gnomon: emulated<Bytes>: a register has 16 bytes or a multiple of it");
+    static constexpr int bytes = Bytes;
+    static constexpr int float_lanes = Bytes / 4;
+    static constexpr int double_lanes = Bytes / 8;
+
+    struct ints {
+        std::uint8_t byte[static_cast<std::size_t>(Bytes)];
+    };
+    struct floats {
+        float lane[static_cast<std::size_t>(float_lanes)];
+    };
+    struct masks {
+        bool lane[static_cast<std::size_t>(float_lanes)];
+    };
+    struct doubles {
+        double lane[static_cast<std::size_t>(double_lanes)];
+    };
+
+    [[nodiscard]] static ints load(const void* from) noexcept { return copied<ints>(from); }
+    static void store(void* to, ints a) noexcept { std::memcpy(to, &a, sizeof a); }
+    /// The same 32 bits again and again.
+    [[nodiscard]] static ints repeat32(std::uint32_t v) noexcept {
+        return each<std::uint32_t>([v](int) { return v; });
+    }
+    [[nodiscard]] static ints exclusive_or(ints a, ints b) noexcept {
+        return each<std::uint8_t>([&](int i) { return a.byte[i] ^ b.byte[i]; });
+    }
+
+    /// Bytes 0, 2, 4 ... of `a`, each before the same byte of `b`; and bytes 1, 3, 5 ...
+    [[nodiscard]] static ints even_pairs8(ints a, ints b) noexcept {
+        return each<std::uint8_t>([&](int i) { return (i % 2 == 0 ? a : b).byte[i & ~1]; });
+    }
+    [[nodiscard]] static ints odd_pairs8(ints a, ints b) noexcept {
+        return each<std::uint8_t>([&](int i) { return (i % 2 == 0 ? a : b).byte[i | 1]; });
+    }
+    /// 16 bits: the sum of two neighbours' products, unsigned weight times signed value. \pre it fits
+    [[nodiscard]] static ints multiply_pairs8(ints weights, ints values) noexcept {
+        return each<std::uint16_t>([&](int i) {
+            const auto product = [&](int k) { return weights.byte[k] * static_cast<std::int8_t>(values.byte[k]); };
+            return product(2 * i) + product(2 * i + 1);
+        });
+    }
+    [[nodiscard]] static ints add16(ints a, ints b) noexcept {
+        return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(a, i) + at<std::uint16_t>(b, i); });
+    }
+    /// 32 bits: `sum` and two neighbours' products of signed 16 bits, modulo 2^32.
+    [[nodiscard]] static ints add_dot16(ints sum, ints weights, ints values) noexcept {
+        return each<std::uint32_t>([&](int i) {
+            const auto product = [&](int k) {
+                return static_cast<std::uint32_t>(at<std::int16_t>(weights, k) * at<std::int16_t>(values, k));
+            };
+            return at<std::uint32_t>(sum, i) + product(2 * i) + product(2 * i + 1);
+        });
+    }
+    /// Of each 32 bits the third byte, of four registers side by side: a b c d a b c d ... \pre the fourth byte of `a` is 0
+    [[nodiscard]] static ints interleave_byte2(ints a, ints b, ints c, ints d) noexcept {
+        const ints* const from[4] = {&a, &b, &c, &d};
+        return each<std::uint8_t>([&](int i) { return at<std::uint32_t>(*from[i % 4], i / 4) >> 16; });
+    }
+    /// Nothing. Where a compiler would sum products as a tree, which takes more registers than there are, it keeps their order.
+    static void settle(ints&) noexcept {}
+
+    [[nodiscard]] static floats load(const float* from) noexcept { return copied<floats>(from); }
+    static void store(float* to, floats a) noexcept { std::memcpy(to, &a, sizeof a); }
+    [[nodiscard]] static floats repeat(float v) noexcept {
+        return of_floats<floats>([v](int) { return v; });
+    }
+    [[nodiscard]] static floats add(floats a, floats b) noexcept {
+        return of_floats<floats>([&](int i) { return a.lane[i] + b.lane[i]; });
+    }
+    [[nodiscard]] static floats subtract(floats a, floats b) noexcept {
+        return of_floats<floats>([&](int i) { return a.lane[i] - b.lane[i]; });
+    }
+    /// a / b, correctly rounded. \pre 1 / b is the float nearest to it, and `a` a whole number in [0, b], b = 255 or 65535
+    [[nodiscard]] static floats fraction(floats a, float b) noexcept {
+        return of_floats<floats>([&](int i) { return a.lane[i] / b; });
+    }
+    [[nodiscard]] static masks greater(floats a, floats b) noexcept {
+        return of_floats<masks>([&](int i) { return a.lane[i] > b.lane[i]; });
+    }
+    /// Set for NaN.
+    [[nodiscard]] static masks not_greater(floats a, floats b) noexcept {
+        return of_floats<masks>([&](int i) { return !(a.lane[i] > b.lane[i]); });
+    }
+    /// a b + c > 0, of the exact product and sum. \pre the sum is nothing, or not below the least float
+    [[nodiscard]] static masks positive(floats a, floats b, floats c) noexcept {
+        return of_floats<masks>([&](int i) {
+            return static_cast<double>(a.lane[i]) * static_cast<double>(b.lane[i]) + static_cast<double>(c.lane[i]) > 0.0;
+        });
+    }
+    [[nodiscard]] static masks both(masks a, masks b) noexcept {
+        return of_floats<masks>([&](int i) { return a.lane[i] && b.lane[i]; });
+    }
+    /// `a` where the mask is set, else 0.
+    [[nodiscard]] static floats keep(masks where, floats a) noexcept {
+        return of_floats<floats>([&](int i) { return where.lane[i] ? a.lane[i] : 0.0f; });
+    }
+    /// The codes of channel `c` of `float_lanes` texels that lie side by side, `Channels` each.
+    template <channel Channel, int Channels>
+    [[nodiscard]] static floats codes_of(const typename Channel::storage* from, int c) noexcept {
+        return of_floats<floats>([&](int i) { return Channel::code(from[i * Channels + c]); });
+    }
+
+    [[nodiscard]] static doubles load(const double* from) noexcept { return copied<doubles>(from); }
+    static void store(double* to, doubles a) noexcept { std::memcpy(to, &a, sizeof a); }
+    [[nodiscard]] static doubles repeat(double v) noexcept {
+        return each([v](int) { return v; });
+    }
+    [[nodiscard]] static doubles add(doubles a, doubles b) noexcept {
+        return each([&](int i) { return a.lane[i] + b.lane[i]; });
+    }
+    [[nodiscard]] static doubles multiply(doubles a, doubles b) noexcept {
+        return each([&](int i) { return a.lane[i] * b.lane[i]; });
+    }
+    [[nodiscard]] static doubles divide(doubles a, doubles b) noexcept {
+        return each([&](int i) { return a.lane[i] / b.lane[i]; });
+    }
+    /// sum + a * b, \pre a * b is exact, so that it does not matter who fuses them.
+    [[nodiscard]] static doubles add_product(doubles sum, doubles a, doubles b) noexcept {
+        return each([&](int i) { return sum.lane[i] + a.lane[i] * b.lane[i]; });
+    }
+    /// Bits modulo 2^64, then masked: detail::to_bits in lanes.
+    [[nodiscard]] static doubles add_and_mask(doubles a, std::uint64_t addend, std::uint64_t mask) noexcept {
+        return each([&](int i) { return std::bit_cast<double>((std::bit_cast<std::uint64_t>(a.lane[i]) + addend) & mask); });
+    }
+
+    /// Codes of stored channels, exactly.
+    template <channel Channel> [[nodiscard]] static doubles codes(const typename Channel::storage* from) noexcept {
+        return each([&](int i) { return static_cast<double>(Channel::code(from[i])); });
+    }
+    /// Stores numbers rounded once: whole codes downwards, \pre within the code's range; half and float as `Channel::store`, but for
+    /// what is left of a NaN, which is any NaN.
+    template <channel Channel> static void store_codes(typename Channel::storage* to, doubles a) noexcept {
+        for (int i = 0; i < double_lanes; ++i)
+            if constexpr (Channel::whole_codes)
+                to[i] = static_cast<typename Channel::storage>(a.lane[i]);
+            else
+                to[i] = Channel::store(a.lane[i]);
+    }
+
+  private:
+    template <typename T> [[nodiscard]] static T copied(const void* from) noexcept {
+        T t;
+        std::memcpy(&t, from, sizeof t);
+        return t;
+    }
+    template <typename T> [[nodiscard]] static T at(const ints& a, int i) noexcept {
+        return copied<T>(a.byte + static_cast<std::size_t>(i) * sizeof(T));
+    }
+    /// A register whose element i is f(i).
+    template <typename T, typename F> [[nodiscard]] static ints each(F&& f) noexcept {
+        ints a;
+        for (int i = 0; i < Bytes / static_cast<int>(sizeof(T)); ++i) {
+            const T v = static_cast<T>(f(i));
+            std::memcpy(a.byte + static_cast<std::size_t>(i) * sizeof(T), &v, sizeof v);
+        }
+        return a;
+    }
+    template <typename T, typename F> [[nodiscard]] static T of_floats(F&& f) noexcept {
+        T a;
+        for (int i = 0; i < float_lanes; ++i) a.lane[i] = f(i);
+        return a;
+    }
+    template <typename F> [[nodiscard]] static doubles each(F&& f) noexcept {
+        doubles a;
+        for (int i = 0; i < double_lanes; ++i) a.lane[i] = f(i);
+        return a;
+    }
+};
+
+} // namespace gnomon

@@ -1,0 +1,111 @@
+// gnomon: soft shadow maps. Lanes of SSE2, which every x86-64 has: 16 bytes at a time. See emulated.hpp for what they mean.
+#pragma once
+
+#include <gnomon/simd/region.hpp>
+#if GNOMON_X86
+#include <gnomon/texel/channel.hpp>
+
+#include <concepts>
+#include <cstdint>
+#include <cstring>
+#include <emmintrin.h>
+
+namespace gnomon {
+
+struct sse2 {
+    static constexpr int bytes = 16;
+    static constexpr int float_lanes = 4;
+    static constexpr int double_lanes = 2;
+    using ints = __m128i;
+    using floats = __m128;
+    using masks = __m128;
+    using doubles = __m128d;
+
+    GNOMON_LANES ints load(const void* from) noexcept { return _mm_loadu_si128(static_cast<const __m128i*>(from)); }
+    GNOMON_LANES_VOID void store(void* to, ints a) noexcept { _mm_storeu_si128(static_cast<__m128i*>(to), a); }
+    GNOMON_LANES ints repeat32(std::uint32_t v) noexcept { return _mm_set1_epi32(static_cast<int>(v)); }
+    GNOMON_LANES ints exclusive_or(ints a, ints b) noexcept { return _mm_xor_si128(a, b); }
+
+    GNOMON_LANES ints even_pairs8(ints a, ints b) noexcept {
+        return _mm_or_si128(_mm_and_si128(a, _mm_set1_epi16(255)), _mm_slli_epi16(b, 8));
+    }
+    GNOMON_LANES ints odd_pairs8(ints a, ints b) noexcept {
+        return _mm_or_si128(_mm_srli_epi16(a, 8), _mm_andnot_si128(_mm_set1_epi16(255), b));
+    }
+    GNOMON_LANES ints multiply_pairs8(ints weights, ints values) noexcept {
+        const ints even =
+            _mm_mullo_epi16(_mm_and_si128(weights, _mm_set1_epi16(255)), _mm_srai_epi16(_mm_slli_epi16(values, 8), 8));
+        return _mm_add_epi16(even, _mm_mullo_epi16(_mm_srli_epi16(weights, 8), _mm_srai_epi16(values, 8)));
+    }
+    GNOMON_LANES ints add16(ints a, ints b) noexcept { return _mm_add_epi16(a, b); }
+    GNOMON_LANES ints add_dot16(ints sum, ints weights, ints values) noexcept {
+        return _mm_add_epi32(sum, _mm_madd_epi16(weights, values));
+    }
+    GNOMON_LANES ints interleave_byte2(ints a, ints b, ints c, ints d) noexcept {
+        const ints ab = _mm_or_si128(_mm_srli_epi32(a, 16), _mm_and_si128(_mm_srli_epi32(b, 8), _mm_set1_epi32(0xFF00)));
+        const ints cd = _mm_or_si128(_mm_and_si128(c, _mm_set1_epi32(0xFF0000)), _mm_slli_epi32(_mm_srli_epi32(d, 16), 24));
+        return _mm_or_si128(ab, cd);
+    }
+    GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
+
+    GNOMON_LANES floats load(const float* from) noexcept { return _mm_loadu_ps(from); }
+    GNOMON_LANES_VOID void store(float* to, floats a) noexcept { _mm_storeu_ps(to, a); }
+    GNOMON_LANES floats repeat(float v) noexcept { return _mm_set1_ps(v); }
+    GNOMON_LANES floats add(floats a, floats b) noexcept { return _mm_add_ps(a, b); }
+    GNOMON_LANES floats subtract(floats a, floats b) noexcept { return _mm_sub_ps(a, b); }
+    GNOMON_LANES floats fraction(floats a, float b) noexcept { return _mm_div_ps(a, _mm_set1_ps(b)); }
+    GNOMON_LANES masks greater(floats a, floats b) noexcept { return _mm_cmpgt_ps(a, b); }
+    GNOMON_LANES masks not_greater(floats a, floats b) noexcept { return _mm_cmpngt_ps(a, b); }
+    GNOMON_LANES masks positive(floats a, floats b,
+                                floats c) noexcept { // in double: the product is exact, and a sum keeps its sign
+        const doubles low = _mm_add_pd(_mm_mul_pd(_mm_cvtps_pd(a), _mm_cvtps_pd(b)), _mm_cvtps_pd(c));
+        const doubles high = _mm_add_pd(_mm_mul_pd(upper(a), upper(b)), upper(c));
+        return _mm_shuffle_ps(_mm_castpd_ps(_mm_cmpgt_pd(low, _mm_setzero_pd())),
+                              _mm_castpd_ps(_mm_cmpgt_pd(high, _mm_setzero_pd())), 0x88);
+    }
+    GNOMON_LANES masks both(masks a, masks b) noexcept { return _mm_and_ps(a, b); }
+    GNOMON_LANES floats keep(masks where, floats a) noexcept { return _mm_and_ps(where, a); }
+    template <channel Channel, int Channels> GNOMON_LANES floats codes_of(const typename Channel::storage* from, int c) noexcept {
+        if constexpr (std::same_as<Channel, unorm8> && Channels == 2) {
+            const ints pairs = _mm_unpacklo_epi16(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)), _mm_setzero_si128());
+            return _mm_cvtepi32_ps(c == 0 ? _mm_and_si128(pairs, _mm_set1_epi32(255)) : _mm_srli_epi32(pairs, 8));
+        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 2) {
+            const ints pairs = load(from);
+            return _mm_cvtepi32_ps(c == 0 ? _mm_and_si128(pairs, _mm_set1_epi32(65535)) : _mm_srli_epi32(pairs, 16));
+        } else {
+            float lane[static_cast<std::size_t>(float_lanes)];
+            for (int i = 0; i < float_lanes; ++i) lane[i] = Channel::code(from[i * Channels + c]);
+            return load(lane);
+        }
+    }
+
+    GNOMON_LANES doubles load(const double* from) noexcept { return _mm_loadu_pd(from); }
+    GNOMON_LANES_VOID void store(double* to, doubles a) noexcept { _mm_storeu_pd(to, a); }
+    GNOMON_LANES doubles repeat(double v) noexcept { return _mm_set1_pd(v); }
+    GNOMON_LANES doubles add(doubles a, doubles b) noexcept { return _mm_add_pd(a, b); }
+    GNOMON_LANES doubles multiply(doubles a, doubles b) noexcept { return _mm_mul_pd(a, b); }
+    GNOMON_LANES doubles divide(doubles a, doubles b) noexcept { return _mm_div_pd(a, b); }
+    GNOMON_LANES doubles add_product(doubles sum, doubles a, doubles b) noexcept { return _mm_add_pd(sum, _mm_mul_pd(a, b)); }
+    GNOMON_LANES doubles add_and_mask(doubles a, std::uint64_t addend, std::uint64_t mask) noexcept {
+        const ints sum = _mm_add_epi64(_mm_castpd_si128(a), _mm_set1_epi64x(static_cast<long long>(addend)));
+        return _mm_castsi128_pd(_mm_and_si128(sum, _mm_set1_epi64x(static_cast<long long>(mask))));
+    }
+
+    template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {
+        return _mm_set_pd(static_cast<double>(Channel::code(from[1])), static_cast<double>(Channel::code(from[0])));
+    }
+    template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, doubles a) noexcept {
+        const double lane[2] = {_mm_cvtsd_f64(a), _mm_cvtsd_f64(_mm_unpackhi_pd(a, a))};
+        for (int i = 0; i < 2; ++i)
+            if constexpr (Channel::whole_codes)
+                to[i] = static_cast<typename Channel::storage>(lane[i]);
+            else
+                to[i] = Channel::store(lane[i]);
+    }
+
+  private:
+    GNOMON_LANES doubles upper(floats a) noexcept { return _mm_cvtps_pd(_mm_movehl_ps(a, a)); }
+};
+
+} // namespace gnomon
+#endif

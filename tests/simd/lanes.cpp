@@ -1,0 +1,205 @@
+// Every operation of every target against `emulated`, which says what it means; on random bits, and on numbers near a rounding.
+#include <gnomon/simd/isa.hpp>
+
+#include "../support/dice.hpp"
+#include "../support/formats.hpp"
+
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace {
+/// A register's worth of bytes, at an odd address.
+struct memory {
+    unsigned char filler;
+    unsigned char byte[64];
+};
+
+/// The comparisons of one set of lanes; each counts wrong answers.
+struct checks_of {
+    int double_lanes;
+    int (*ints)(const memory*);
+    int (*doubles)(const double*);
+    int (*products)(const double*, const double*);
+    int (*floats)(const float*);
+    int (*fractions8)(const std::uint8_t*);
+    int (*fractions16)(const std::uint16_t*);
+    int (*unorm8)(const std::uint8_t*, const double*);
+    int (*unorm16)(const std::uint16_t*, const double*);
+    int (*half16)(const std::uint16_t*, const double*);
+    int (*float32)(const float*, const double*);
+};
+} // namespace
+
+#define CHECKS_ON plain
+#include "lanes_checks.inl"
+#undef CHECKS_ON
+#if GNOMON_X86
+GNOMON_TARGET_BEGIN("avx2,fma,f16c")
+#define CHECKS_ON with_avx2
+#include "lanes_checks.inl"
+#undef CHECKS_ON
+GNOMON_TARGET_END
+GNOMON_TARGET_BEGIN(GNOMON_AVX512)
+#define CHECKS_ON with_avx512
+#include "lanes_checks.inl"
+#undef CHECKS_ON
+GNOMON_TARGET_END
+#endif
+
+namespace {
+using gnomon::cpu_level;
+using gnomon::simd_isa;
+
+static_assert(simd_isa<gnomon::emulated<16>> && simd_isa<gnomon::emulated<64>> && !simd_isa<int> && !simd_isa<gnomon::half16>);
+#if GNOMON_X86
+static_assert(simd_isa<gnomon::sse2> && simd_isa<gnomon::avx2> && simd_isa<gnomon::avx512>);
+#endif
+
+/// Calls f(checks) for each target that this processor has.
+template <typename F> void for_each_target(F&& f) {
+#if GNOMON_X86
+    f(plain::all<gnomon::sse2>);
+    if (gnomon::best_lanes() >= cpu_level::avx2) f(with_avx2::all<gnomon::avx2>);
+    if (gnomon::best_lanes() >= cpu_level::avx512) f(with_avx512::all<gnomon::avx512>);
+#endif
+    f(plain::all<gnomon::emulated<32>>); // the checks pass what is right
+}
+} // namespace
+
+TEST_CASE("operations on whole numbers give the bits of the emulated ones") {
+    test::dice roll(411);
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int n = 0; n < 2000; ++n) {
+            memory m[4];
+            for (memory& each : m)
+                for (unsigned char& byte : each.byte)
+                    byte = static_cast<unsigned char>(roll(0, 3) == 0 ? 128 * roll(0, 1) + 127 * roll(0, 1) : roll(0, 255));
+            wrong += target.ints(m);
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("arithmetic on doubles gives the bits of the emulated one") {
+    test::dice roll(412);
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int n = 0; n < 2000; ++n) {
+            double numbers[16], whole[16];
+            for (double& each : numbers)
+                each =
+                    std::ldexp(1.0 + static_cast<double>(roll.unit()) + static_cast<double>(roll.unit()) * 0x1p-24, roll(-40, 40));
+            for (double& each : whole) each = roll(0, 65536);
+            wrong += target.doubles(numbers) + target.products(numbers, whole);
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("arithmetic and comparisons of floats give the bits of the emulated ones, for infinities, NaN and all between") {
+    test::dice roll(413);
+    constexpr float odd[] = {0.0f,
+                             -0.0f,
+                             1.0f,
+                             -1.0f,
+                             std::numeric_limits<float>::infinity(),
+                             -std::numeric_limits<float>::infinity(),
+                             std::numeric_limits<float>::quiet_NaN(),
+                             3e38f};
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int n = 0; n < 4000; ++n) {
+            float numbers[48];
+            for (int i = 0; i < 48; ++i) {
+                numbers[i] = roll.one_in(4) ? odd[roll(0, 7)] : std::ldexp(roll.unit() - 0.5f, roll(-20, 20));
+                // The two sides of a difference that is nothing, or all but nothing: a whole number times a depth, and what it equals.
+                if (i < 32 || roll.one_in(2)) continue;
+                numbers[i - 32] = static_cast<float>(roll(1, 511));
+                numbers[i] = -numbers[i - 32] * numbers[i - 16];
+            }
+            wrong += target.floats(numbers);
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("every code of 8 and 16 bits over its scale is rounded correctly, whichever channel of a texel it is") {
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int first = 0; first < 65536; ++first) {
+            std::uint8_t bytes[64];
+            std::uint16_t words[64];
+            for (int i = 0; i < 64; ++i) {
+                words[i] = static_cast<std::uint16_t>(first + i);
+                bytes[i] = static_cast<std::uint8_t>(first + i);
+            }
+            wrong += target.fractions16(words) + (first < 256 ? target.fractions8(bytes) : 0);
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("every stored code is read as it is") {
+    const double numbers[8]{};
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int code = 0; code < 65536; code += target.double_lanes) {
+            std::uint8_t bytes[8];
+            std::uint16_t words[8];
+            float floats[8];
+            for (int i = 0; i < 8; ++i) {
+                words[i] = static_cast<std::uint16_t>(code + i);
+                bytes[i] = static_cast<std::uint8_t>(code + i);
+                floats[i] = std::bit_cast<float>(std::uint32_t{words[i]} << 16 | 0x8001u);
+            }
+            wrong += target.unorm8(bytes, numbers) + target.unorm16(words, numbers) + target.half16(words, numbers) +
+                     target.float32(floats, numbers);
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("codes are stored rounded down, halves and floats to nearest: on, just before and just after every step and every tie") {
+    const std::uint16_t words[8]{};
+    const std::uint8_t bytes[8]{};
+    const float floats[8]{};
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int code = 0; code < 65536; ++code) {
+            // The half with this pattern and the middle between it and the next, in units of the last place of a double around them.
+            const double half = static_cast<double>(gnomon::half_to_float(static_cast<std::uint16_t>(code)));
+            const double next =
+                static_cast<double>(gnomon::half_to_float(static_cast<std::uint16_t>(code == 65535 ? 0 : code + 1)));
+            const double tie = half / 2 + next / 2;
+            const auto beside = [](double v, int steps) {
+                return std::bit_cast<double>(std::bit_cast<std::uint64_t>(v) +
+                                             static_cast<std::uint64_t>(static_cast<std::int64_t>(steps)));
+            };
+            const double halves[8] = {half,
+                                      tie,
+                                      beside(tie, 1),
+                                      tie > 0.0 ? beside(tie, -1) : tie,
+                                      beside(half, 1),
+                                      tie * (1 + 0x1p-30),
+                                      tie * (1 - 0x1p-30),
+                                      tie * (1 + 0x1p-25)};
+            const double c16 = code, c8 = code % 256;
+            const double codes16[8] = {c16, c16 + 0.25, c16 + 0.999999, beside(c16 + 1.0, -1), c16, c16, c16, c16};
+            const double codes8[8] = {c8, c8 + 0.25, c8 + 0.999999, beside(c8 + 1.0, -1), c8, c8, c8, c8};
+            const float f = std::bit_cast<float>(static_cast<std::uint32_t>(code) << 15 | 0x4321u);
+            const double g = static_cast<double>(f), middle = g + std::ldexp(1.0, std::ilogb(g) - 24);
+            const double numbers[8] = {g, middle, beside(middle, 1), beside(middle, -1), -0.0, 0.0, g * 1.1, g * 0.9};
+            wrong += target.half16(words, halves) + target.unorm16(words, codes16) + target.unorm8(bytes, codes8) +
+                     target.float32(floats, numbers);
+            wrong +=
+                target.half16(words, halves + 8 - target.double_lanes) + target.float32(floats, numbers + 8 - target.double_lanes);
+        }
+        CHECK(wrong == 0);
+    });
+}

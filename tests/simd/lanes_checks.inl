@@ -1,0 +1,130 @@
+// The comparison of one set of lanes with `emulated`. Included once for each target, inside its region: no lane may be called from
+// outside of it. CHECKS_ON names the namespace.
+
+namespace CHECKS_ON {
+
+template <typename Isa> int differing(const typename Isa::ints& a, const typename gnomon::emulated<Isa::bytes>::ints& b) {
+    return std::memcmp(&a, &b, sizeof a) != 0;
+}
+template <typename Isa> int differing(const typename Isa::doubles& a, const typename gnomon::emulated<Isa::bytes>::doubles& b) {
+    return std::memcmp(&a, &b, sizeof a) != 0;
+}
+
+/// How many operations on whole numbers answer otherwise.
+template <typename Isa> int wrong_ints(const memory* m) {
+    using same = gnomon::emulated<Isa::bytes>;
+    const auto a = Isa::load(m[0].byte), b = Isa::load(m[1].byte), c = Isa::load(m[2].byte), d = Isa::load(m[3].byte);
+    const auto e = same::load(m[0].byte), f = same::load(m[1].byte), g = same::load(m[2].byte), h = same::load(m[3].byte);
+    std::uint32_t word;
+    std::memcpy(&word, m[0].byte, sizeof word);
+    // Two weights that sum to at most 256, as a kernel's do.
+    const std::uint32_t pair = (word & 0xFF) | (256 - (word & 0xFF)) % 256 << 8, weights = pair | pair << 16;
+    memory below_2_24 = m[0];
+    for (int i = 3; i < 64; i += 4) below_2_24.byte[i] = 0;
+    memory stored;
+    Isa::store(stored.byte, a);
+    return differing<Isa>(a, e) + (std::memcmp(stored.byte, m[0].byte, static_cast<std::size_t>(Isa::bytes)) != 0) +
+           differing<Isa>(Isa::repeat32(word), same::repeat32(word)) +
+           differing<Isa>(Isa::exclusive_or(a, b), same::exclusive_or(e, f)) +
+           differing<Isa>(Isa::even_pairs8(a, b), same::even_pairs8(e, f)) +
+           differing<Isa>(Isa::odd_pairs8(a, b), same::odd_pairs8(e, f)) +
+           differing<Isa>(Isa::multiply_pairs8(Isa::repeat32(weights), b), same::multiply_pairs8(same::repeat32(weights), f)) +
+           differing<Isa>(Isa::add16(a, b), same::add16(e, f)) + differing<Isa>(Isa::add_dot16(a, b, c), same::add_dot16(e, f, g)) +
+           differing<Isa>(Isa::interleave_byte2(Isa::load(below_2_24.byte), b, c, d),
+                          same::interleave_byte2(same::load(below_2_24.byte), f, g, h));
+}
+
+/// The same for arithmetic and comparisons of floats, any of which may be none: what is left of a NaN may be any NaN.
+template <typename Isa> int wrong_floats(const float* number) {
+    using same = gnomon::emulated<Isa::bytes>;
+    constexpr auto width = static_cast<std::size_t>(Isa::bytes);
+    const auto equal = [](const typename Isa::floats& mine, const typename same::floats& theirs) {
+        float a[16], b[16];
+        Isa::store(a, mine);
+        same::store(b, theirs);
+        for (int i = 0; i < Isa::float_lanes; ++i)
+            if (std::memcmp(&a[i], &b[i], sizeof(float)) != 0 && !(std::isnan(a[i]) && std::isnan(b[i]))) return false;
+        return true;
+    };
+    const auto a = Isa::load(number), b = Isa::load(number + 16), c = Isa::load(number + 32), one = Isa::repeat(1.0f);
+    const auto e = same::load(number), f = same::load(number + 16), g = same::load(number + 32), unit = same::repeat(1.0f);
+    float stored[16];
+    Isa::store(stored, a);
+    return (std::memcmp(stored, number, width) != 0) + !equal(a, e) + !equal(Isa::repeat(number[3]), same::repeat(number[3])) +
+           !equal(Isa::add(a, b), same::add(e, f)) + !equal(Isa::subtract(a, b), same::subtract(e, f)) +
+           !equal(Isa::keep(Isa::greater(a, b), one), same::keep(same::greater(e, f), unit)) +
+           !equal(Isa::keep(Isa::not_greater(a, b), one), same::keep(same::not_greater(e, f), unit)) +
+           !equal(Isa::keep(Isa::both(Isa::greater(a, b), Isa::greater(a, c)), one),
+                  same::keep(same::both(same::greater(e, f), same::greater(e, g)), unit)) +
+           !equal(Isa::keep(Isa::positive(a, b, c), one), same::keep(same::positive(e, f, g), unit));
+}
+
+/// Fractions of 255 and 65535 as numbers that are read from texels of two, three and four channels.
+template <typename Isa, typename Channel> int wrong_fractions(const typename Channel::storage* stored) {
+    using same = gnomon::emulated<Isa::bytes>;
+    const auto differ = [&](const typename Isa::floats& mine, const typename same::floats& theirs) {
+        float a[16], b[16];
+        Isa::store(a, Isa::fraction(mine, Channel::scale));
+        same::store(b, same::fraction(theirs, Channel::scale));
+        return std::memcmp(a, b, static_cast<std::size_t>(Isa::bytes)) != 0;
+    };
+    return differ(Isa::template codes_of<Channel, 2>(stored, 0), same::template codes_of<Channel, 2>(stored, 0)) +
+           differ(Isa::template codes_of<Channel, 2>(stored, 1), same::template codes_of<Channel, 2>(stored, 1)) +
+           differ(Isa::template codes_of<Channel, 3>(stored, 2), same::template codes_of<Channel, 3>(stored, 2)) +
+           differ(Isa::template codes_of<Channel, 4>(stored, 1), same::template codes_of<Channel, 4>(stored, 1));
+}
+
+/// The same for arithmetic on doubles, all of which are numbers.
+template <typename Isa> int wrong_doubles(const double* number) {
+    using same = gnomon::emulated<Isa::bytes>;
+    const auto a = Isa::load(number), b = Isa::load(number + 8);
+    const auto e = same::load(number), f = same::load(number + 8);
+    double stored[8];
+    Isa::store(stored, a);
+    return differing<Isa>(a, e) + (std::memcmp(stored, number, static_cast<std::size_t>(Isa::bytes)) != 0) +
+           differing<Isa>(Isa::repeat(number[3]), same::repeat(number[3])) + differing<Isa>(Isa::add(a, b), same::add(e, f)) +
+           differing<Isa>(Isa::multiply(a, b), same::multiply(e, f)) + differing<Isa>(Isa::divide(a, b), same::divide(e, f)) +
+           differing<Isa>(Isa::add_and_mask(a, 1 << 16, ~std::uint64_t{0x1FFFF}),
+                          same::add_and_mask(e, 1 << 16, ~std::uint64_t{0x1FFFF}));
+}
+
+/// sum + a b, where the product is exact.
+template <typename Isa> int wrong_products(const double* sums, const double* whole) {
+    using same = gnomon::emulated<Isa::bytes>;
+    return differing<Isa>(Isa::add_product(Isa::load(sums), Isa::load(whole), Isa::load(whole + 8)),
+                          same::add_product(same::load(sums), same::load(whole), same::load(whole + 8)));
+}
+
+/// Reads codes from storage and stores numbers as codes; NaN may be any NaN.
+template <typename Isa, gnomon::channel Channel> int wrong_codes(const typename Channel::storage* stored, const double* number) {
+    using same = gnomon::emulated<Isa::bytes>;
+    using storage = typename Channel::storage;
+    double mine[8], theirs[8];
+    Isa::store(mine, Isa::template codes<Channel>(stored));
+    same::store(theirs, same::template codes<Channel>(stored));
+    storage written[9]{}, expected[9]{};
+    Isa::template store_codes<Channel>(written, Isa::load(number));
+    same::template store_codes<Channel>(expected, same::load(number));
+    int n = std::memcmp(&written[Isa::double_lanes], &expected[Isa::double_lanes], sizeof(storage)) != 0; // nothing more is written
+    for (int i = 0; i < Isa::double_lanes; ++i) {
+        n += std::memcmp(&mine[i], &theirs[i], sizeof(double)) != 0 && !(std::isnan(mine[i]) && std::isnan(theirs[i]));
+        const float a = Channel::code(written[i]), b = Channel::code(expected[i]);
+        n += std::memcmp(&written[i], &expected[i], sizeof(storage)) != 0 && !(std::isnan(a) && std::isnan(b));
+    }
+    return n;
+}
+
+template <typename Isa>
+inline constexpr checks_of all{Isa::double_lanes,
+                               wrong_ints<Isa>,
+                               wrong_doubles<Isa>,
+                               wrong_products<Isa>,
+                               wrong_floats<Isa>,
+                               wrong_fractions<Isa, gnomon::unorm8>,
+                               wrong_fractions<Isa, gnomon::unorm16>,
+                               wrong_codes<Isa, gnomon::unorm8>,
+                               wrong_codes<Isa, gnomon::unorm16>,
+                               wrong_codes<Isa, gnomon::half16>,
+                               wrong_codes<Isa, gnomon::float32>};
+
+} // namespace CHECKS_ON
