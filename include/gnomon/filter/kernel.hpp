@@ -56,17 +56,17 @@ namespace detail {
 
 template <int Radius> using weights_of = std::array<int, static_cast<std::size_t>(2 * Radius + 1)>;
 
-/// Whole weights that sum to exactly kernel_total_limit and keep the proportions of `exact` to within one unit each: by largest
+/// Whole weights that sum to exactly `Total` and keep the proportions of `exact` to within one unit each: by largest
 /// remainder, in symmetric pairs; what is odd goes to the centre.
-template <int Radius, typename Number>
+template <int Radius, int Total = kernel_total_limit, typename Number>
 constexpr weights_of<Radius> apportion(const std::array<Number, static_cast<std::size_t>(Radius + 1)>& exact) {
     Number sum = exact[0];
     for (std::size_t i = 1; i <= Radius; ++i) sum += 2 * exact[i];
     std::array<int, static_cast<std::size_t>(Radius + 1)> share{};
     std::array<double, static_cast<std::size_t>(Radius + 1)> rest{};
-    int left = kernel_total_limit;
+    int left = Total;
     for (std::size_t i = 0; i <= Radius; ++i) {
-        const double ideal = static_cast<double>(exact[i]) * kernel_total_limit / static_cast<double>(sum);
+        const double ideal = static_cast<double>(exact[i]) * Total / static_cast<double>(sum);
         share[i] = static_cast<int>(ideal);
         rest[i] = ideal - share[i];
         left -= i == 0 ? share[i] : 2 * share[i];
@@ -155,6 +155,20 @@ template <int Radius, int SigmaPercent = 50> struct gaussian {
         const double sigma = greater(Radius, 1) * (SigmaPercent / 100.0);
         for (int i = 0; i <= Radius; ++i) bell[static_cast<std::size_t>(i)] = detail::exp_minus(i * i / (2 * sigma * sigma));
         return detail::apportion<Radius>(bell);
+    }();
+};
+
+/// Another kernel in weights of eight bits, within one unit in 256 of its proportions, so a weight may be one unit above its inner
+/// neighbour. For 8-bit maps, which the lanes of backend/simd.hpp then filter in whole numbers, several times as fast. `binomial` up to R = 4 is one already, and `tent` of R = 1, 3, 7 and 15.
+template <kernel Kernel> struct eight_bit {
+    static_assert(Kernel::radius > 0 && Kernel::radius <= 32,
+                  "gnomon: eight_bit<Kernel>: the radius must be 1..32; beyond, 256 units are too few for the weights of a kernel");
+    static constexpr int radius = Kernel::radius;
+    static constexpr int total = 256;
+    static constexpr auto weights = [] {
+        std::array<int, static_cast<std::size_t>(radius + 1)> proportions{};
+        for (std::size_t i = 0; i <= radius; ++i) proportions[i] = Kernel::weights[radius + i];
+        return detail::apportion<radius, total>(proportions);
     }();
 };
 
