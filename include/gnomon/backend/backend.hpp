@@ -40,4 +40,12 @@ void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> fr
     filter(run, from, to, tiles.tiles(), scratch);
 }
 
+/// Receivers one to one on texels: receive(simd<>{}, soft.row_span(y), depths, intensities). See receive/receive.hpp.
+template <typename Backend, texel_row Row>
+    requires backend_for<Backend, texel_in<Row>, box<0>>
+void receive(const Backend& run, const Row& texels, strided_span<const float> z, strided_span<float> intensity,
+             const rule& r = {}) noexcept {
+    run.receive(strided_span<const texel_in<Row>>(strided_span(texels)), z, intensity, r);
+}
+
 } // namespace gnomon

@@ -36,8 +36,10 @@ template <typename T> class strided_span {
     }
 
     [[nodiscard]] constexpr int size() const noexcept { return size_; }
+    /// Do the elements lie side by side?
+    [[nodiscard]] constexpr bool contiguous() const noexcept { return stride_ == static_cast<std::ptrdiff_t>(sizeof(T)); }
     [[nodiscard]] constexpr T& operator[](int i) const noexcept {
-        if (stride_ == static_cast<std::ptrdiff_t>(sizeof(T))) return data_[i];
+        if (contiguous()) return data_[i];
         using byte = std::conditional_t<std::is_const_v<T>, const std::byte, std::byte>;
         return *reinterpret_cast<T*>(reinterpret_cast<byte*>(data_) + stride_ * i);
     }

@@ -1,0 +1,131 @@
+// gnomon: soft shadow maps. The backend of lanes: the bits of `scalar`, at the speed of the processor the program finds itself on.
+#pragma once
+
+#include <gnomon/backend/scalar.hpp>
+#include <gnomon/simd/isa.hpp>
+
+#include <array>
+#include <cstring>
+
+#define GNOMON_ON on_any
+#include <gnomon/backend/simd_filter.hpp>
+#include <gnomon/backend/simd_receive.hpp>
+#undef GNOMON_ON
+#if GNOMON_X86
+GNOMON_TARGET_BEGIN("avx2,fma,f16c")
+#define GNOMON_ON on_avx2
+#include <gnomon/backend/simd_filter.hpp>
+#include <gnomon/backend/simd_receive.hpp>
+#undef GNOMON_ON
+GNOMON_TARGET_END
+GNOMON_TARGET_BEGIN(GNOMON_AVX512)
+#define GNOMON_ON on_avx512
+#include <gnomon/backend/simd_filter.hpp>
+#include <gnomon/backend/simd_receive.hpp>
+#undef GNOMON_ON
+GNOMON_TARGET_END
+#endif
+
+namespace gnomon {
+
+/// The best lanes that the processor has: asked at run time, so no compiler flag is needed.
+struct best_isa {};
+
+namespace detail {
+
+/// Lanes read and write these; a channel of a user's goes by the scalar loops.
+template <typename Channel>
+concept channel_of_lanes = std::same_as<Channel, unorm8> || std::same_as<Channel, unorm16> || std::same_as<Channel, half16> ||
+                           std::same_as<Channel, float32>;
+
+/// Each target's code is called by its own name; for best_isa the processor says which. False where nothing was done.
+template <typename Isa, kernel Kernel, texel_format Texel>
+bool filter_in_lanes(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
+    if constexpr (std::same_as<Isa, best_isa>) {
+#if GNOMON_X86
+        switch (best_lanes()) {
+        case cpu_level::avx512: return filter_in_lanes<avx512, Kernel>(from, to, region);
+        case cpu_level::avx2: return filter_in_lanes<avx2, Kernel>(from, to, region);
+        case cpu_level::sse2:
+        case cpu_level::portable: return filter_in_lanes<sse2, Kernel>(from, to, region);
+        }
+#endif
+        return false;
+#if GNOMON_X86
+    } else if constexpr (std::same_as<Isa, avx512>) {
+        return on_avx512::filter_rows<avx512, Kernel, Texel>(from, to, region);
+    } else if constexpr (std::same_as<Isa, avx2>) {
+        return on_avx2::filter_rows<avx2, Kernel, Texel>(from, to, region);
+#endif
+    } else {
+        return on_any::filter_rows<Isa, Kernel, Texel>(from, to, region);
+    }
+}
+
+template <typename Isa, texel_format Texel>
+bool receive_in_lanes(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+                      const rule& r) noexcept {
+    if constexpr (std::same_as<Isa, best_isa>) {
+#if GNOMON_X86
+        switch (best_lanes()) {
+        case cpu_level::avx512: return receive_in_lanes<avx512>(texels, z, intensity, r);
+        case cpu_level::avx2: return receive_in_lanes<avx2>(texels, z, intensity, r);
+        case cpu_level::sse2:
+        case cpu_level::portable: return receive_in_lanes<sse2>(texels, z, intensity, r);
+        }
+#endif
+        return false;
+    } else {
+#if GNOMON_X86
+        if constexpr (std::same_as<Isa, avx512>)
+            on_avx512::receive_row<avx512>(texels, z, intensity, r);
+        else if constexpr (std::same_as<Isa, avx2>)
+            on_avx2::receive_row<avx2>(texels, z, intensity, r);
+        else
+#endif
+            on_any::receive_row<Isa>(texels, z, intensity, r);
+        return true;
+    }
+}
+
+} // namespace detail
+
+/// Filters and receives in lanes: simd<> in those the processor has, simd<avx2> and the like in these alone, simd<Yours> in a
+/// simd_isa of your own. Results are those of `scalar`, bit for bit; of a NaN in half or float texels only that it is one.
+///
+/// What lanes do not know is left to `scalar`: depth_ratio, channels of a user's, radii beyond 256, maps narrower than a register; and in `receive` half and
+/// float texels, the paper's pair, far bounds, and positions. Needs no scratch for what it does itself.
+/// \pre the processor has the lanes that are named: ask best_lanes(). simd<> has no such condition.
+template <typename Isa = best_isa> struct simd {
+    static_assert(std::same_as<Isa, best_isa> || simd_isa<Isa>,
+                  "gnomon: simd<Isa> takes sse2, avx2, avx512, emulated<Bytes> or lanes of your own that model simd_isa; simd<> "
+                  "takes the best there are");
+
+    template <texel_format Texel, kernel Kernel>
+    void filter_region(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
+                       filter_scratch<Texel, Kernel>& scratch) const noexcept {
+        if constexpr (detail::channel_of_lanes<typename Texel::channel_type> && Texel::representation_type::premultiplied &&
+                      Kernel::radius <= 256) {
+            static_assert(kernel_is_sound<Kernel>());
+            const texel_rect part = clip(clip(region, to.size()), from.size());
+            if (!part.empty() && from.data() != to.data() && detail::filter_in_lanes<Isa, Kernel>(from, to, part)) return;
+        }
+        gnomon::filter_region(from, to, region, scratch);
+    }
+    template <texel_format Texel>
+    void receive(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+                 const rule& r) const noexcept {
+        if constexpr (detail::channel_of_lanes<typename Texel::channel_type> && on_any::decided_in_lanes<Texel>)
+            if (detail::receive_in_lanes<Isa>(texels, z, intensity, r)) return;
+        gnomon::receive(texels, z, intensity, r);
+    }
+    template <texel_format Texel>
+    void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
+                 strided_span<float> intensity, const rule& r) const noexcept {
+        gnomon::receive(map, x, y, z, intensity, r);
+    }
+};
+
+static_assert(backend_for<simd<>, rg8, box<1>>);
+
+} // namespace gnomon
