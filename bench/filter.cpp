@@ -1,0 +1,148 @@
+// How long a Gaussian takes: the lanes of this processor, pinned and by themselves, against what memory allows and against OpenCV.
+//
+// Names are WHAT/FORMAT/kTAPS/SIZE, and all run in one process, so that their ratios mean something: bench/run prints these.
+//     fast, exact               simd<>; fast is eight_bit<gaussian> for 8-bit maps, and the same as exact for the others so far
+//     fast.avx2, exact.avx2     simd<avx2>
+//     blur, sep                 cv::GaussianBlur and cv::sepFilter2D in one thread, if CMake found OpenCV
+//     copy, stream              the floor: memcpy of the same bytes, and reading with stores that pass the caches by (kTAPS is k0)
+#include <gnomon/backend/simd.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+#if GNOMON_X86
+#include <emmintrin.h>
+#endif
+#if GNOMON_BENCH_OPENCV
+#include <opencv2/imgproc.hpp>
+#endif
+
+namespace {
+using namespace gnomon;
+
+constexpr int sizes[] = {256, 512, 1024, 2048, 4096};
+
+template <typename Texel>
+constexpr const char* format = std::same_as<Texel, rg8>    ? "u8x2"
+                               : std::same_as<Texel, rg16> ? "u16x2"
+                                                           : "f32x2";
+
+template <typename F> void add(const std::string& what, const char* of, int taps, int size, std::size_t bytes, F&& work) {
+    const std::string name = what + "/" + of + "/k" + std::to_string(taps) + "/" + std::to_string(size);
+    benchmark::RegisterBenchmark(name.c_str(), [work, bytes](benchmark::State& state) {
+        work(state);
+        state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(2 * bytes)); // read and written
+    });
+}
+
+/// Half the texels hold casters: in lanes time does not depend on what a map holds.
+template <typename Texel> image<Texel> discs(int size) {
+    image<Texel> map({size, size}, Texel::clear());
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+            if ((x % 64 - 32) * (x % 64 - 32) + (y % 64 - 32) * (y % 64 - 32) < 650)
+                map(x, y) = Texel::caster(static_cast<float>(x % 200) / 200.0f);
+    return map;
+}
+
+template <typename Isa, kernel Kernel, typename Texel> void add_ours(const std::string& what, int size) {
+    const auto bytes = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * sizeof(Texel);
+    add(what, format<Texel>, 2 * Kernel::radius + 1, size, bytes, [size](benchmark::State& state) {
+        const image<Texel> from = discs<Texel>(size);
+        image<Texel> to(from.size(), Texel::clear());
+        filter_scratch<Texel, Kernel> scratch(size);
+        for ([[maybe_unused]] auto _ : state) {
+            simd<Isa>{}.filter_region(from.view(), to.view(), whole(from.size()), scratch);
+            benchmark::ClobberMemory();
+        }
+    });
+}
+
+template <kernel Kernel, typename Texel> void add_all(int size) {
+    using quick = std::conditional_t<std::same_as<Texel, rg8>, eight_bit<Kernel>, Kernel>;
+    add_ours<best_isa, quick, Texel>("fast", size);
+    add_ours<best_isa, Kernel, Texel>("exact", size);
+#if GNOMON_X86
+    if (best_lanes() >= cpu_level::avx2) {
+        add_ours<avx2, quick, Texel>("fast.avx2", size);
+        add_ours<avx2, Kernel, Texel>("exact.avx2", size);
+    }
+#endif
+#if GNOMON_BENCH_OPENCV
+    constexpr int type = std::same_as<Texel, rg8>    ? CV_8UC2
+                         : std::same_as<Texel, rg16> ? CV_16UC2
+                                                     : CV_32FC2,
+                  taps = 2 * Kernel::radius + 1;
+    const auto bytes = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * sizeof(Texel);
+    const auto add_cv = [&](const char* what, auto&& filter) {
+        add(what, format<Texel>, taps, size, bytes, [size, filter](benchmark::State& state) {
+            cv::setNumThreads(1);
+            image<Texel> map = discs<Texel>(size);
+            const cv::Mat from(size, size, type, &map(0, 0), static_cast<std::size_t>(map.view().stride()));
+            cv::Mat to(size, size, type);
+            for ([[maybe_unused]] auto _ : state) {
+                filter(from, to);
+                benchmark::ClobberMemory();
+            }
+        });
+    };
+    const cv::Mat weights = cv::getGaussianKernel(taps, Kernel::radius / 2.0, CV_32F);
+    add_cv("blur", [](const cv::Mat& from, cv::Mat& to) {
+        cv::GaussianBlur(from, to, {taps, taps}, Kernel::radius / 2.0, Kernel::radius / 2.0, cv::BORDER_CONSTANT);
+    });
+    add_cv("sep", [weights](const cv::Mat& from, cv::Mat& to) {
+        cv::sepFilter2D(from, to, -1, weights, weights, {-1, -1}, 0.0, cv::BORDER_CONSTANT);
+    });
+#endif
+}
+
+template <typename Texel> void add_floor(int size) {
+    const auto bytes = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * sizeof(Texel);
+    struct alignas(64) line {
+        unsigned char byte[64];
+    };
+    add("copy", format<Texel>, 0, size, bytes, [bytes](benchmark::State& state) {
+        const std::vector<line> from(bytes / 64, line{{1}});
+        std::vector<line> to(from.size());
+        for ([[maybe_unused]] auto _ : state) {
+            std::memcpy(to.data(), from.data(), bytes);
+            benchmark::ClobberMemory();
+        }
+    });
+#if GNOMON_X86
+    add("stream", format<Texel>, 0, size, bytes, [bytes](benchmark::State& state) {
+        const std::vector<line> from(bytes / 64, line{{1}});
+        std::vector<line> to(from.size());
+        for ([[maybe_unused]] auto _ : state) {
+            const auto* in = reinterpret_cast<const __m128i*>(from.data());
+            auto* out = reinterpret_cast<__m128i*>(to.data());
+            for (std::size_t i = 0; i < bytes / 16; ++i) _mm_stream_si128(out + i, _mm_load_si128(in + i));
+            benchmark::ClobberMemory();
+        }
+    });
+#endif
+}
+
+template <typename Texel> void add_format() {
+    for (const int size : sizes) {
+        add_floor<Texel>(size);
+        add_all<gaussian<1>, Texel>(size);
+        add_all<gaussian<2>, Texel>(size);
+        add_all<gaussian<3>, Texel>(size);
+        add_all<gaussian<4>, Texel>(size);
+        add_all<gaussian<6>, Texel>(size);
+        add_all<gaussian<16>, Texel>(size);
+    }
+}
+} // namespace
+
+int main(int count, char** words) {
+    add_format<rg8>();
+    add_format<rg16>();
+    add_format<rg32f>();
+    benchmark::Initialize(&count, words);
+    if (benchmark::ReportUnrecognizedArguments(count, words)) return 1;
+    benchmark::RunSpecifiedBenchmarks();
+}
