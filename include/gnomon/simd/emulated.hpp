@@ -43,30 +43,31 @@ template <int Bytes> struct emulated {
         return each<std::uint8_t>([&](int i) { return a.byte[i] ^ b.byte[i]; });
     }
 
-    /// Bytes 0, 2, 4 ... of `a`, each before the same byte of `b`; and bytes 1, 3, 5 ...
+    /// 16 bits: byte 0, 2, 4 ... of `a`, and the same byte of `b` above it; and byte 1, 3, 5 ...
     [[nodiscard]] static ints even_pairs8(ints a, ints b) noexcept {
-        return each<std::uint8_t>([&](int i) { return (i % 2 == 0 ? a : b).byte[i & ~1]; });
+        return each<std::uint16_t>([&](int i) { return a.byte[2 * i] | b.byte[2 * i] << 8; });
     }
     [[nodiscard]] static ints odd_pairs8(ints a, ints b) noexcept {
-        return each<std::uint8_t>([&](int i) { return (i % 2 == 0 ? a : b).byte[i | 1]; });
+        return each<std::uint16_t>([&](int i) { return a.byte[2 * i + 1] | b.byte[2 * i + 1] << 8; });
     }
-    /// 16 bits: the sum of two neighbours' products, unsigned weight times signed value. \pre it fits
+    /// 16 bits: the sum of two products, unsigned weight times signed value, of the lower bytes and of the upper ones. \pre it fits
     [[nodiscard]] static ints multiply_pairs8(ints weights, ints values) noexcept {
         return each<std::uint16_t>([&](int i) {
-            const auto product = [&](int k) { return weights.byte[k] * static_cast<std::int8_t>(values.byte[k]); };
-            return product(2 * i) + product(2 * i + 1);
+            const std::uint16_t w = at<std::uint16_t>(weights, i), v = at<std::uint16_t>(values, i);
+            return (w & 255) * static_cast<std::int8_t>(v & 255) + (w >> 8) * static_cast<std::int8_t>(v >> 8);
         });
     }
     [[nodiscard]] static ints add16(ints a, ints b) noexcept {
         return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(a, i) + at<std::uint16_t>(b, i); });
     }
-    /// 32 bits: `sum` and two neighbours' products of signed 16 bits, modulo 2^32.
+    /// 32 bits: `sum`, and two neighbours' products with the lower and the upper 16 bits of a weight, all signed, modulo 2^32.
     [[nodiscard]] static ints add_dot16(ints sum, ints weights, ints values) noexcept {
         return each<std::uint32_t>([&](int i) {
-            const auto product = [&](int k) {
-                return static_cast<std::uint32_t>(at<std::int16_t>(weights, k) * at<std::int16_t>(values, k));
+            const std::uint32_t pair = at<std::uint32_t>(weights, i);
+            const auto product = [&](std::uint32_t weight, int k) {
+                return static_cast<std::uint32_t>(static_cast<std::int16_t>(weight & 0xFFFF) * at<std::int16_t>(values, k));
             };
-            return at<std::uint32_t>(sum, i) + product(2 * i) + product(2 * i + 1);
+            return at<std::uint32_t>(sum, i) + product(pair, 2 * i) + product(pair >> 16, 2 * i + 1);
         });
     }
     /// Of each 32 bits the third byte, of four registers side by side: a b c d a b c d ... \pre the fourth byte of `a` is 0
