@@ -193,7 +193,7 @@ TEST_CASE("codes are stored rounded down, halves and floats to nearest: on, just
             const double codes16[8] = {c16, c16 + 0.25, c16 + 0.999999, beside(c16 + 1.0, -1), c16, c16, c16, c16};
             const double codes8[8] = {c8, c8 + 0.25, c8 + 0.999999, beside(c8 + 1.0, -1), c8, c8, c8, c8};
             const float f = std::bit_cast<float>(static_cast<std::uint32_t>(code) << 15 | 0x4321u);
-            const double g = static_cast<double>(f), middle = g + std::ldexp(1.0, std::ilogb(g) - 24);
+            const double g = static_cast<double>(f), middle = std::bit_cast<double>(std::bit_cast<std::uint64_t>(g) + (1u << 28));
             const double numbers[8] = {g, middle, beside(middle, 1), beside(middle, -1), -0.0, 0.0, g * 1.1, g * 0.9};
             wrong += target.half16(words, halves) + target.unorm16(words, codes16) + target.unorm8(bytes, codes8) +
                      target.float32(floats, numbers);
