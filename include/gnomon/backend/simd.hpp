@@ -43,14 +43,12 @@ template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter_in_lanes(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
     if constexpr (std::same_as<Isa, best_isa>) {
 #if GNOMON_X86
-        switch (best_lanes()) {
-        case cpu_level::avx512: return filter_in_lanes<avx512, Kernel>(from, to, region);
-        case cpu_level::avx2: return filter_in_lanes<avx2, Kernel>(from, to, region);
-        case cpu_level::sse2:
-        case cpu_level::portable: return filter_in_lanes<sse2, Kernel>(from, to, region);
-        }
-#endif
+        if (best_lanes() >= cpu_level::avx512) return filter_in_lanes<avx512, Kernel>(from, to, region);
+        if (best_lanes() >= cpu_level::avx2) return filter_in_lanes<avx2, Kernel>(from, to, region);
+        return filter_in_lanes<sse2, Kernel>(from, to, region);
+#else
         return false;
+#endif
 #if GNOMON_X86
     } else if constexpr (std::same_as<Isa, avx512>) {
         return on_avx512::filter_rows<avx512, Kernel, Texel>(from, to, region);
@@ -67,14 +65,12 @@ bool receive_in_lanes(strided_span<const Texel> texels, strided_span<const float
                       const rule& r) noexcept {
     if constexpr (std::same_as<Isa, best_isa>) {
 #if GNOMON_X86
-        switch (best_lanes()) {
-        case cpu_level::avx512: return receive_in_lanes<avx512>(texels, z, intensity, r);
-        case cpu_level::avx2: return receive_in_lanes<avx2>(texels, z, intensity, r);
-        case cpu_level::sse2:
-        case cpu_level::portable: return receive_in_lanes<sse2>(texels, z, intensity, r);
-        }
-#endif
+        if (best_lanes() >= cpu_level::avx512) return receive_in_lanes<avx512>(texels, z, intensity, r);
+        if (best_lanes() >= cpu_level::avx2) return receive_in_lanes<avx2>(texels, z, intensity, r);
+        return receive_in_lanes<sse2>(texels, z, intensity, r);
+#else
         return false;
+#endif
     } else {
 #if GNOMON_X86
         if constexpr (std::same_as<Isa, avx512>)

@@ -1,0 +1,92 @@
+// Decisions in lanes against the oracle, bit for bit: every width up to two registers and a bit, any stride, any rule, depths that are
+// none; and for bytes every pair there is, at its threshold.
+#include <gnomon/backend/simd.hpp>
+
+#include "../support/formats.hpp"
+#include "../support/lanes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+namespace {
+using gnomon::image_view;
+using gnomon::rg8;
+using gnomon::simd;
+using test::dice;
+using test::fill_with_bits;
+using test::for_each_isa;
+} // namespace
+
+TEST_CASE_TEMPLATE("lanes decide as the oracle does: every width to 67, any stride, any rule, and depths that are none", Texel, rg8,
+                   gnomon::rg16, gnomon::rga8, gnomon::rga16, gnomon::rg32f, test::paper8, gnomon::rgb8) {
+    dice roll(404);
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const float odd_depths[] = {0.0f,      -0.0f,     1.0f,     0.5f,      std::nextafter(0.5f, 0.0f),
+                                -1.0f,     2.0f,      infinity, -infinity, std::numeric_limits<float>::quiet_NaN(),
+                                0x1p-126f, 0x1p-149f, 3e38f};
+    std::vector<gnomon::rule> rules{{}, {.caster = gnomon::unbiased}, {.caster = gnomon::towards_shadow}, {.lit_beyond = true}};
+    rules.push_back({.caster = {.roundings = 1000, .depth = 0.125f}});
+    rules.push_back({.caster = {.caster_is_code = true}});
+    for_each_isa([&]<typename Isa>() {
+        int wrong = 0, dark = 0;
+        for (int count = 0; count <= 67; ++count)
+            for (const int spread : {1, 3}) {
+                const auto size = static_cast<std::size_t>(count * spread + 1);
+                std::vector<Texel> texels(size);
+                std::vector<float> z(size), expected(size, -1.0f), made(size, -1.0f);
+                fill_with_bits(roll, image_view<Texel>(texels.data(), {static_cast<int>(size), 1}));
+                for (std::size_t i = 0; i < size; ++i) {
+                    if (!roll.one_in(3)) texels[i] = test::any_caster<Texel>(roll);
+                    z[i] = roll.one_in(4) ? odd_depths[roll(0, 12)] : roll.unit();
+                    if (roll.one_in(2)) z[i] = gnomon::caster_depth(texels[i]) + static_cast<float>(roll(-2, 2)) * 0x1p-24f;
+                }
+                const auto spread_over = [&](auto& memory) {
+                    using T = std::remove_reference_t<decltype(memory[0])>;
+                    return gnomon::strided_span<T>(memory.data(), count, static_cast<std::ptrdiff_t>(sizeof(T)) * spread);
+                };
+                const auto& constant_texels = texels;
+                const auto& constant_z = z;
+                for (const gnomon::rule& r : rules) {
+                    gnomon::receive(spread_over(constant_texels), spread_over(constant_z), spread_over(expected), r);
+                    simd<Isa>{}.receive(spread_over(constant_texels), spread_over(constant_z), spread_over(made), r);
+                    wrong += std::memcmp(expected.data(), made.data(), size * sizeof(float)) != 0;
+                    for (const float intensity : made) dark += intensity > 0.0f;
+                }
+            }
+        CHECK(wrong == 0);
+        CHECK(dark > 1000);
+    });
+}
+
+TEST_CASE_TEMPLATE(
+    "lanes decide exactly: every pair of bytes at the threshold, one float before and one after, and at the least depth there is",
+    Texel, rg8) {
+    std::vector<Texel> texels;
+    std::vector<float> z;
+    for (int mask = 0; mask < 256; ++mask)
+        for (int depth = 0; depth < 256; ++depth) {
+            const Texel t{{static_cast<std::uint8_t>(depth), static_cast<std::uint8_t>(mask)}};
+            const float s = gnomon::caster_depth(t);
+            for (const float at : {std::nextafter(s, -1.0f), s, std::nextafter(s, 2.0f), 0x1p-149f}) {
+                texels.push_back(t);
+                z.push_back(at);
+            }
+        }
+    std::vector<float> expected(z.size()), made(z.size());
+    const gnomon::bias least{.towards = gnomon::bias_towards::shadow,
+                             .caster_is_code = true}; // (0, 1) becomes (1/2, 1/2), and s nothing
+    for (const gnomon::bias& towards : {gnomon::unbiased, gnomon::towards_light, gnomon::towards_shadow, least}) {
+        gnomon::receive(texels, z, expected, {.caster = towards});
+        for_each_isa([&]<typename Isa>() {
+            simd<Isa>{}.receive(gnomon::strided_span<const Texel>(texels), gnomon::strided_span<const float>(z),
+                                gnomon::strided_span<float>(made), {.caster = towards});
+            CHECK(expected == made);
+        });
+    }
+}

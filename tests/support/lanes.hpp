@@ -1,0 +1,31 @@
+// Every set of lanes that the machine under test can run, and memory that holds anything.
+#pragma once
+
+#include "images.hpp"
+
+#include <gnomon/simd/isa.hpp>
+
+namespace test {
+
+/// Calls f.template operator()<Isa>() for what the processor has, by name and as the best of them, and for lanes that are arrays.
+template <typename F> void for_each_isa(F&& f) {
+    f.template operator()<gnomon::best_isa>();
+    f.template operator()<gnomon::emulated<48>>();
+#if GNOMON_X86
+    f.template operator()<gnomon::sse2>();
+    if (gnomon::best_lanes() >= gnomon::cpu_level::avx2) f.template operator()<gnomon::avx2>();
+    if (gnomon::best_lanes() >= gnomon::cpu_level::avx512) f.template operator()<gnomon::avx512>();
+#endif
+}
+
+/// Any bits at all, so for half and float infinities, NaN and numbers beyond [0, 1] too.
+template <typename Texel> void fill_with_bits(dice& roll, gnomon::image_view<Texel> to) {
+    for_each_texel(whole(to.size()), [&](int x, int y) {
+        for (auto& stored : to(x, y).stored) {
+            std::uint32_t bits = static_cast<std::uint32_t>(roll(0, 65535));
+            bits = bits << 16 | static_cast<std::uint32_t>(roll(0, 65535));
+            std::memcpy(&stored, &bits, sizeof stored);
+        }
+    });
+}
+} // namespace test
