@@ -7,12 +7,15 @@ const char* sentence_of_the_failed = "";
 #define GNOMON_ASSERT(condition, sentence) ((condition) ? void() : (++failed, sentence_of_the_failed = (sentence), void()))
 #include <gnomon/backend/backend.hpp>
 #include <gnomon/backend/scalar.hpp>
+#include <gnomon/backend/simd.hpp>
 #include <gnomon/filter/pyramid.hpp>
 #include <gnomon/filter/separable.hpp>
 #include <gnomon/grid/reference_grid.hpp>
 #include <gnomon/grid/regions.hpp>
 #include <gnomon/grid/tile_grid.hpp>
 #include <gnomon/texel/image.hpp>
+
+#include "../support/images.hpp"
 
 #include <doctest/doctest.h>
 
@@ -73,6 +76,12 @@ TEST_CASE("a filter into its own image or with too narrow a scratch is a wrong c
     CHECK(complaint() == "");
     filter_region(from.view(), from.view(), {0, 0, 8, 2}, scratch);
     CHECK(complaint() == "gnomon: a filter reads one image and writes another");
+    image<rg8> wide({64, 2}, rg8::caster(0.5f)); // as wide as a register
+    const image<rg8> before = wide;
+    filter_scratch<rg8, binomial<1>> unused(64);
+    simd<>{}.filter_region(image_view<const rg8>(wide.view()), wide.view(), {0, 0, 64, 2}, unused);
+    CHECK(complaint() == "gnomon: a filter reads one image and writes another");
+    CHECK(test::differences(before, wide) == 0);
     filter_region(from.view(), to.view(), {0, 0, 8, 2}, narrow);
     CHECK(complaint() == "gnomon: the filter's scratch is narrower than the region; make it for the map's width");
 }

@@ -1,12 +1,14 @@
 // Decisions in lanes against the oracle, bit for bit: every width up to two registers and a bit, any stride, any rule, depths that are
 // none; and for bytes every pair there is, at its threshold.
 #include <gnomon/backend/simd.hpp>
+#include <gnomon/soft_shadow_map.hpp>
 
 #include "../support/formats.hpp"
 #include "../support/lanes.hpp"
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -36,8 +38,8 @@ TEST_CASE_TEMPLATE("lanes decide as the oracle does: every width to 67, any stri
     for_each_isa([&]<typename Isa>() {
         int wrong = 0, dark = 0;
         for (int count = 0; count <= 67; ++count)
-            for (const int spread : {1, 3}) {
-                const auto size = static_cast<std::size_t>(count * spread + 1);
+            for (const auto& [of_texels, of_z, of_intensity] : {std::array{1, 1, 1}, {3, 1, 1}, {1, 3, 1}, {1, 1, 2}, {2, 3, 2}}) {
+                const auto size = static_cast<std::size_t>(3 * count + 1);
                 std::vector<Texel> texels(size);
                 std::vector<float> z(size), expected(size, -1.0f), made(size, -1.0f);
                 fill_with_bits(roll, image_view<Texel>(texels.data(), {static_cast<int>(size), 1}));
@@ -46,15 +48,17 @@ TEST_CASE_TEMPLATE("lanes decide as the oracle does: every width to 67, any stri
                     z[i] = roll.one_in(4) ? odd_depths[roll(0, 12)] : roll.unit();
                     if (roll.one_in(2)) z[i] = gnomon::caster_depth(texels[i]) + static_cast<float>(roll(-2, 2)) * 0x1p-24f;
                 }
-                const auto spread_over = [&](auto& memory) {
+                const auto spread_over = [&](auto& memory, int spread) {
                     using T = std::remove_reference_t<decltype(memory[0])>;
                     return gnomon::strided_span<T>(memory.data(), count, static_cast<std::ptrdiff_t>(sizeof(T)) * spread);
                 };
                 const auto& constant_texels = texels;
                 const auto& constant_z = z;
                 for (const gnomon::rule& r : rules) {
-                    gnomon::receive(spread_over(constant_texels), spread_over(constant_z), spread_over(expected), r);
-                    simd<Isa>{}.receive(spread_over(constant_texels), spread_over(constant_z), spread_over(made), r);
+                    gnomon::receive(spread_over(constant_texels, of_texels), spread_over(constant_z, of_z),
+                                    spread_over(expected, of_intensity), r);
+                    simd<Isa>{}.receive(spread_over(constant_texels, of_texels), spread_over(constant_z, of_z),
+                                        spread_over(made, of_intensity), r);
                     wrong += std::memcmp(expected.data(), made.data(), size * sizeof(float)) != 0;
                     for (const float intensity : made) dark += intensity > 0.0f;
                 }
@@ -88,5 +92,46 @@ TEST_CASE_TEMPLATE(
                                 gnomon::strided_span<float>(made), {.caster = towards});
             CHECK(expected == made);
         });
+    }
+}
+
+#if GNOMON_X86
+TEST_CASE("simd<> goes by the lanes of the processor's level, and every level below is there to be chosen") {
+    for (const gnomon::cpu_level level : {gnomon::cpu_level::sse2, gnomon::cpu_level::avx2, gnomon::cpu_level::avx512}) {
+        const int bytes = gnomon::detail::with_lanes(level, []<typename Isa>() { return Isa::bytes; });
+        CHECK(bytes == (level == gnomon::cpu_level::sse2 ? 16 : level == gnomon::cpu_level::avx2 ? 32 : 64));
+    }
+}
+#endif
+
+TEST_CASE_TEMPLATE("a map that runs on lanes is the map that runs on plain loops, frame after frame", Texel, rg8, gnomon::rga16,
+                   gnomon::rg32f) {
+    constexpr gnomon::map_size size{.width = 96, .height = 80, .tile = 16};
+    gnomon::soft_shadow_map<Texel, gnomon::binomial<2>> plain(size);
+    gnomon::soft_shadow_map<Texel, gnomon::binomial<2>, simd<>> lanes(size);
+    dice roll(406);
+    std::vector<float> x(96), y(96), z(96), expected(96), made(96);
+    for (int frame = 0; frame < 4; ++frame) {
+        plain.clear();
+        lanes.clear();
+        for (int casters = 0; casters < 3; ++casters) {
+            const gnomon::texel_rect r = roll.rect({96, 80}, 9);
+            const float s = roll.unit();
+            plain.cast(r, s);
+            lanes.cast(r, s);
+        }
+        plain.filter();
+        lanes.filter();
+        for (std::size_t i = 0; i < 96; ++i) {
+            x[i] = 96 * roll.unit();
+            y[i] = 80 * roll.unit();
+            z[i] = roll.unit();
+        }
+        plain.receive(x, y, z, expected);
+        lanes.receive(x, y, z, made);
+        CHECK(expected == made);
+        plain.receive_row(40, z, expected);
+        lanes.receive_row(40, z, made);
+        CHECK(expected == made);
     }
 }

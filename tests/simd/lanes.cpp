@@ -203,3 +203,27 @@ TEST_CASE("codes are stored rounded down, halves and floats to nearest: on, just
         CHECK(wrong == 0);
     });
 }
+
+TEST_CASE("a processor has the lanes whose every bit it shows, and whose registers its system keeps") {
+    using gnomon::detail::cpu_answers;
+    using gnomon::detail::level_of;
+    constexpr auto bit = [](int n) { return std::uint32_t{1} << n; };
+    // Intel's manual, CPUID: 1.ecx FMA 12, OSXSAVE 27, AVX 28, F16C 29; 7.ebx AVX2 5, F 16, DQ 17, BW 30, VL 31; 7.ecx VNNI 11; and
+    // XGETBV: SSE 1, AVX 2, opmask 5, the upper halves of zmm 6, zmm16 and up 7.
+    const cpu_answers all{7, bit(12) | bit(27) | bit(28) | bit(29), bit(5) | bit(16) | bit(17) | bit(30) | bit(31), bit(11), 0xE7};
+    CHECK(level_of(all) == cpu_level::avx512);
+    CHECK(level_of({0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF}) == cpu_level::avx512);
+    CHECK(level_of({6, all.ecx_of_1, all.ebx_of_7, all.ecx_of_7, all.kept}) == cpu_level::sse2); // leaf 7 answers for another
+    const auto without = [&all](std::uint32_t cpu_answers::* which, int n) {
+        cpu_answers cpu = all;
+        cpu.*which &= ~(std::uint32_t{1} << n);
+        return level_of(cpu);
+    };
+    for (const int n : {12, 27, 28, 29}) CHECK(without(&cpu_answers::ecx_of_1, n) == cpu_level::sse2);
+    CHECK(without(&cpu_answers::ebx_of_7, 5) == cpu_level::sse2);
+    for (const int n : {1, 2}) CHECK(without(&cpu_answers::kept, n) == cpu_level::sse2);
+    for (const int n : {16, 17, 30, 31}) CHECK(without(&cpu_answers::ebx_of_7, n) == cpu_level::avx2);
+    CHECK(without(&cpu_answers::ecx_of_7, 11) == cpu_level::avx2);
+    for (const int n : {5, 6, 7}) CHECK(without(&cpu_answers::kept, n) == cpu_level::avx2);
+    CHECK(gnomon::best_lanes() == gnomon::detail::ask_cpu());
+}

@@ -38,51 +38,50 @@ template <typename Channel>
 concept channel_of_lanes = std::same_as<Channel, unorm8> || std::same_as<Channel, unorm16> || std::same_as<Channel, half16> ||
                            std::same_as<Channel, float32>;
 
-/// Each target's code is called by its own name; for best_isa the processor says which. False where nothing was done.
+/// Does this build have these lanes?
+template <typename Isa> inline constexpr bool has_lanes = GNOMON_X86 != 0 || !std::same_as<Isa, best_isa>;
+
+#if GNOMON_X86
+/// Each target's code goes by its own name.
 template <typename Isa, kernel Kernel, texel_format Texel>
-bool filter_in_lanes(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
-    if constexpr (std::same_as<Isa, best_isa>) {
-#if GNOMON_X86
-        if (best_lanes() >= cpu_level::avx512) return filter_in_lanes<avx512, Kernel>(from, to, region);
-        if (best_lanes() >= cpu_level::avx2) return filter_in_lanes<avx2, Kernel>(from, to, region);
-        return filter_in_lanes<sse2, Kernel>(from, to, region);
-#else
-        return false;
-#endif
-#if GNOMON_X86
-    } else if constexpr (std::same_as<Isa, avx512>) {
+bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
+    if constexpr (std::same_as<Isa, avx512>)
         return on_avx512::filter_rows<avx512, Kernel, Texel>(from, to, region);
-    } else if constexpr (std::same_as<Isa, avx2>) {
+    else if constexpr (std::same_as<Isa, avx2>)
         return on_avx2::filter_rows<avx2, Kernel, Texel>(from, to, region);
-#endif
-    } else {
+    else
         return on_any::filter_rows<Isa, Kernel, Texel>(from, to, region);
-    }
+}
+template <typename Isa, texel_format Texel>
+void receive_on(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+                const rule& r) noexcept {
+    if constexpr (std::same_as<Isa, avx512>)
+        on_avx512::receive_row<avx512>(texels, z, intensity, r);
+    else if constexpr (std::same_as<Isa, avx2>)
+        on_avx2::receive_row<avx2>(texels, z, intensity, r);
+    else
+        on_any::receive_row<Isa>(texels, z, intensity, r);
 }
 
-template <typename Isa, texel_format Texel>
-bool receive_in_lanes(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
-                      const rule& r) noexcept {
-    if constexpr (std::same_as<Isa, best_isa>) {
-#if GNOMON_X86
-        if (best_lanes() >= cpu_level::avx512) return receive_in_lanes<avx512>(texels, z, intensity, r);
-        if (best_lanes() >= cpu_level::avx2) return receive_in_lanes<avx2>(texels, z, intensity, r);
-        return receive_in_lanes<sse2>(texels, z, intensity, r);
-#else
-        return false;
-#endif
-    } else {
-#if GNOMON_X86
-        if constexpr (std::same_as<Isa, avx512>)
-            on_avx512::receive_row<avx512>(texels, z, intensity, r);
-        else if constexpr (std::same_as<Isa, avx2>)
-            on_avx2::receive_row<avx2>(texels, z, intensity, r);
-        else
-#endif
-            on_any::receive_row<Isa>(texels, z, intensity, r);
-        return true;
-    }
+/// Calls f.template operator()<Isa>() with the lanes of a level.
+template <typename F> auto with_lanes(cpu_level level, F&& f) noexcept {
+    if (level >= cpu_level::avx512) return f.template operator()<avx512>();
+    if (level >= cpu_level::avx2) return f.template operator()<avx2>();
+    return f.template operator()<sse2>();
 }
+#else
+template <typename Isa, kernel Kernel, texel_format Texel>
+bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
+    return on_any::filter_rows<Isa, Kernel, Texel>(from, to, region);
+}
+template <typename Isa, texel_format Texel>
+void receive_on(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+                const rule& r) noexcept {
+    on_any::receive_row<Isa>(texels, z, intensity, r);
+}
+/// No lanes are known of this processor: has_lanes<best_isa> is false, and nobody asks.
+template <typename F> auto with_lanes(cpu_level, F&& f) noexcept { return f.template operator()<emulated<16>>(); }
+#endif
 
 } // namespace detail
 
@@ -100,25 +99,36 @@ template <typename Isa = best_isa> struct simd {
     template <texel_format Texel, kernel Kernel>
     void filter_region(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
                        filter_scratch<Texel, Kernel>& scratch) const noexcept {
-        if constexpr (detail::channel_of_lanes<typename Texel::channel_type> && Texel::representation_type::premultiplied &&
-                      Kernel::radius <= 256) {
-            static_assert(kernel_is_sound<Kernel>());
+        static_assert(kernel_is_sound<Kernel>());
+        if constexpr (detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
+                      Texel::representation_type::premultiplied && Kernel::radius <= 256) {
             const texel_rect part = clip(clip(region, to.size()), from.size());
-            if (!part.empty() && from.data() != to.data() && detail::filter_in_lanes<Isa, Kernel>(from, to, part)) return;
+            const auto filtered_by = [&]<typename Lanes>() { return detail::filter_on<Lanes, Kernel>(from, to, part); };
+            if (!part.empty() && from.data() != to.data() && call(filtered_by)) return;
         }
         gnomon::filter_region(from, to, region, scratch);
     }
     template <texel_format Texel>
     void receive(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
                  const rule& r) const noexcept {
-        if constexpr (detail::channel_of_lanes<typename Texel::channel_type> && on_any::decided_in_lanes<Texel>)
-            if (detail::receive_in_lanes<Isa>(texels, z, intensity, r)) return;
-        gnomon::receive(texels, z, intensity, r);
+        if constexpr (detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
+                      on_any::decided_in_lanes<Texel>)
+            call([&]<typename Lanes>() { detail::receive_on<Lanes>(texels, z, intensity, r); });
+        else
+            gnomon::receive(texels, z, intensity, r);
     }
     template <texel_format Texel>
     void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
                  strided_span<float> intensity, const rule& r) const noexcept {
         gnomon::receive(map, x, y, z, intensity, r);
+    }
+
+  private:
+    template <typename F> static auto call(F&& f) noexcept {
+        if constexpr (std::same_as<Isa, best_isa>)
+            return detail::with_lanes(best_lanes(), f);
+        else
+            return f.template operator()<Isa>();
     }
 };
 

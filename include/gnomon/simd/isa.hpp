@@ -60,47 +60,54 @@ concept simd_isa =
         { Isa::template store_codes<unorm8>(codes, d) };
     };
 
-/// The best lanes of this processor, asked for once.
+/// Which lanes a processor has.
 enum class cpu_level { portable, sse2, avx2, avx512 };
 
 namespace detail {
 
-#if GNOMON_X86
-struct cpuid_answer {
-    std::uint32_t eax, ebx, ecx, edx;
+/// What an x86 processor says of itself, and its operating system of the registers that it keeps.
+struct cpu_answers {
+    std::uint32_t leaves; ///< cpuid(0).eax
+    std::uint32_t ecx_of_1, ebx_of_7, ecx_of_7;
+    std::uint32_t kept; ///< xgetbv(0)
 };
-[[nodiscard]] inline cpuid_answer cpuid(unsigned leaf) noexcept {
-#if defined(_MSC_VER) && !defined(__clang__)
+
+/// AVX2 counts with FMA and F16C, AVX-512 with BW, DQ, VL and VNNI, and either only if its registers are kept.
+[[nodiscard]] constexpr cpu_level level_of(const cpu_answers& cpu) noexcept {
+    constexpr auto bit = [](int n) { return std::uint32_t{1} << n; };
+    constexpr auto has = [](std::uint32_t bits, std::uint32_t all) { return (bits & all) == all; };
+    constexpr std::uint32_t fma_xsave_avx_f16c = bit(12) | bit(27) | bit(28) | bit(29),
+                            f_dq_bw_vl = bit(16) | bit(17) | bit(30) | bit(31);
+    if (cpu.leaves < 7 || !has(cpu.ecx_of_1, fma_xsave_avx_f16c)) return cpu_level::sse2;
+    if (!has(cpu.ebx_of_7, bit(5)) || !has(cpu.kept, 0x06)) return cpu_level::sse2;
+    if (!has(cpu.ebx_of_7, f_dq_bw_vl) || !has(cpu.ecx_of_7, bit(11)) || !has(cpu.kept, 0xE6)) return cpu_level::avx2;
+    return cpu_level::avx512;
+}
+
+#if GNOMON_X86 && defined(_MSC_VER) && !defined(__clang__)
+inline void ask_cpuid(std::uint32_t leaf, std::uint32_t (&registers)[4]) noexcept {
     int r[4];
     __cpuidex(r, static_cast<int>(leaf), 0);
-    return {static_cast<std::uint32_t>(r[0]), static_cast<std::uint32_t>(r[1]), static_cast<std::uint32_t>(r[2]),
-            static_cast<std::uint32_t>(r[3])};
-#else
-    cpuid_answer a{};
-    __cpuid_count(leaf, 0, a.eax, a.ebx, a.ecx, a.edx);
-    return a;
-#endif
+    for (int i = 0; i < 4; ++i) registers[i] = static_cast<std::uint32_t>(r[i]);
 }
-/// Which registers the operating system keeps. \pre the processor has XSAVE
+[[nodiscard]] inline std::uint32_t kept_registers() noexcept { return static_cast<std::uint32_t>(_xgetbv(0)); }
+#elif GNOMON_X86
+inline void ask_cpuid(std::uint32_t leaf, std::uint32_t (&r)[4]) noexcept { __cpuid_count(leaf, 0, r[0], r[1], r[2], r[3]); }
 [[nodiscard]] inline std::uint32_t kept_registers() noexcept {
-#if defined(_MSC_VER) && !defined(__clang__)
-    return static_cast<std::uint32_t>(_xgetbv(0));
-#else
     std::uint32_t low, high;
     asm("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
     return low;
-#endif
 }
+#endif
+
+#if GNOMON_X86
 [[nodiscard]] inline cpu_level ask_cpu() noexcept {
-    constexpr auto bit = [](int n) { return std::uint32_t{1} << n; };
-    constexpr std::uint32_t fma_xsave_avx_f16c = bit(12) | bit(27) | bit(28) | bit(29),
-                            f_dq_bw_vl = bit(16) | bit(17) | bit(30) | bit(31);
-    const auto has = [](std::uint32_t bits, std::uint32_t all) { return (bits & all) == all; };
-    if (cpuid(0).eax < 7 || !has(cpuid(1).ecx, fma_xsave_avx_f16c)) return cpu_level::sse2;
-    const cpuid_answer more = cpuid(7);
-    if (!has(kept_registers(), 0x06) || !has(more.ebx, bit(5))) return cpu_level::sse2;
-    const bool vnni = has(more.ecx, bit(11));
-    return has(kept_registers(), 0xE6) && has(more.ebx, f_dq_bw_vl) && vnni ? cpu_level::avx512 : cpu_level::avx2;
+    std::uint32_t leaf0[4], leaf1[4], leaf7[4]; // eax, ebx, ecx, edx
+    ask_cpuid(0, leaf0);
+    ask_cpuid(1, leaf1);
+    ask_cpuid(7, leaf7);
+    const bool says_what_it_keeps = (leaf1[2] >> 27 & 1) != 0; // without OSXSAVE there is no xgetbv
+    return level_of({leaf0[0], leaf1[2], leaf7[1], leaf7[2], says_what_it_keeps ? kept_registers() : 0});
 }
 #else
 [[nodiscard]] inline cpu_level ask_cpu() noexcept { return cpu_level::portable; }
@@ -108,6 +115,7 @@ struct cpuid_answer {
 
 } // namespace detail
 
+/// The best lanes of this processor, which is asked once.
 [[nodiscard]] inline cpu_level best_lanes() noexcept {
     static const cpu_level level = detail::ask_cpu();
     return level;
