@@ -53,6 +53,8 @@ template <typename Texel> struct drawing {
 };
 template <typename Map, typename Draw>
 concept can_cast = requires(Map& map, Draw draw) { map.cast(draw); };
+template <typename Map, typename Draw>
+concept can_bound = requires(Map& map, Draw draw) { map.bound(draw); };
 
 /// One caster for certain, a few at random, and a ground where the format has one.
 template <typename Map> void populate(Map& map, dice& roll) {
@@ -178,6 +180,9 @@ TEST_CASE_TEMPLATE("a far bound ends the shadow at the first receiver, and only 
 
 static_assert(can_cast<map_of<gnomon::rg8>, drawing<gnomon::rg8>> && !can_cast<map_of<gnomon::rg8>, drawing<gnomon::rg16>>);
 static_assert(!can_cast<map_of<gnomon::rg8>, void (*)(gnomon::image_view<gnomon::rg8>)>, "who draws says what was touched");
+static_assert(can_bound<map_of<gnomon::rgb8>, void (*)(gnomon::image_view<gnomon::rgb8>)> &&
+              !can_bound<map_of<gnomon::rgb8>, void (*)(gnomon::image_view<gnomon::rg8>)>);
+static_assert(!can_bound<map_of<gnomon::rg8>, void (*)(gnomon::image_view<gnomon::rg8>)>, "nothing to write a bound to");
 
 TEST_CASE_TEMPLATE("what is drawn into bound bounds as rectangles do", Texel, gnomon::rgb8, gnomon::rgba32f) {
     map_of<Texel> map({.width = 60, .height = 30, .tile = 8}), by_rect = map;

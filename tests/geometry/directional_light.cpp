@@ -103,6 +103,7 @@ TEST_CASE("margins must leave two texels of either side") {
     for (const extent size : {extent{6, 600}, extent{600, 6}, extent{6, 6}}) CHECK(sun.frame(size, 2).valid());
     for (const extent size : {extent{5, 600}, extent{600, 5}, extent{4, 600}, extent{600, 4}, extent{0, 600}, extent{600, 0}})
         CHECK_FALSE(sun.frame(size, 2).valid());
+    CHECK(sun.frame({2, 2}).valid()); // without a margin, unless one is asked for
 }
 
 TEST_CASE("a sphere that wanders never changes the size of a texel") {
@@ -144,6 +145,15 @@ TEST_CASE("every direction has a frame, also along the up hint, and up is up") {
                 }
 }
 
+TEST_CASE("up is the world's y unless another is asked for") {
+    directional_light sun({0.3, -1.0, 0.2});
+    sun.add_caster(bounding_sphere{glm::dvec3(0), 1.0});
+    const light_frame light = sun.frame({64, 64});
+    const map_point origin = light.to_map({0, 0, 0}), above = light.to_map({0, 1, 0});
+    CHECK(std::abs(above.x - origin.x) < 1e-9);
+    CHECK(above.y > origin.y);
+}
+
 TEST_CASE("empty bounds change nothing") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     directional_light sun({0.1, -1, 0.3}), plain({0.1, -1, 0.3});
@@ -154,6 +164,8 @@ TEST_CASE("empty bounds change nothing") {
     sun.add_caster(bounding_box{{100, 0, 0}, {99, 1, 1}});
     sun.add_receiver(bounding_box{{100, 0, nan}, {101, 1, 1}});
     sun.add_receiver(bounding_sphere{{0, 1000, 0}, nan});
+    sun.add_receiver(bounding_sphere{{0, 1000, 0}, -1.0});
+    sun.add_receiver(bounding_box{{0, 1000, 0}, {-1, 1000, 0}});
     CHECK(sun.frame({64, 64}).matrix() == plain.frame({64, 64}).matrix());
     plain.add_receiver(bounding_sphere{{0, 1000, 0}, 0.0}); // a point is not empty
     CHECK(sun.frame({64, 64}).matrix() != plain.frame({64, 64}).matrix());

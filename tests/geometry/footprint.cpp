@@ -162,6 +162,7 @@ TEST_CASE("what a spot light's near plane hides has no footprint, and what it cu
     const auto box = [&](double low, double high) { return footprint(bounding_box{{-0.5, low, -0.5}, {0.5, high, 0.5}}, light); };
     CHECK(box(9.01, 12.0).empty()); // before the near plane, and behind the light
     CHECK(box(10.5, 12.0).empty());
+    CHECK_FALSE(box(9.0, 9.0).empty()); // on it
     CHECK(footprint(bounding_sphere{{0, 12, 0}, 1.9}, light).empty());
     CHECK(footprint(bounding_sphere{{0, 10, 0}, 0.99}, light).empty());
 
@@ -172,6 +173,14 @@ TEST_CASE("what a spot light's near plane hides has no footprint, and what it cu
     CHECK_FALSE(footprint(bounding_sphere{{0, 9, 0}, 3.0}, light).empty()); // holds the light
     CHECK(footprint(bounding_sphere{{0, 9, 0}, 30.0}, light).texels == whole({256, 256}));
     CHECK(footprint(bounding_sphere{{0, 9, 0}, 30.0}, light).depth == depth_interval{0.0f, 1.0f});
+}
+
+TEST_CASE("a footprint is 1/1024 texel and 2^-22 of the depth range wider than what it holds") {
+    const light_frame light(glm::dmat4(1.0), {64, 64}, 1.0, 1.0); // the world in texels and depths
+    const light_footprint within = footprint(bounding_box{{10.0009, 11.0009, 0.25}, {19.9991, 20.9991, 0.5}}, light),
+                          beyond = footprint(bounding_box{{10.001, 11.001, 0.25}, {19.999, 20.999, 0.5}}, light);
+    CHECK(within == light_footprint{{9, 10, 21, 22}, {0.25f - 0x1p-22f, 0.5f + 0x1p-22f}});
+    CHECK(beyond == light_footprint{{10, 11, 20, 21}, within.depth});
 }
 
 TEST_CASE("a directional light keeps what is before its near plane at depth 0, and every light keeps what is beyond at depth 1") {
@@ -210,6 +219,11 @@ TEST_CASE("empty, absent and infinite bounds") {
         CHECK(footprint(bounding_box{glm::dvec3(1e300), glm::dvec3(infinity)}, light).empty() ==
               footprint(bounding_box{glm::dvec3(1e30), glm::dvec3(1e30)}, light).empty());
     }
+}
+
+TEST_CASE("bounds that nobody has set are a point: the origin of the world") {
+    CHECK((bounding_sphere{}.centre == glm::dvec3(0.0) && !(bounding_sphere{}.radius > 0.0) && !bounding_sphere{}.empty()));
+    CHECK((bounding_box{}.lower == glm::dvec3(0.0) && bounding_box{}.upper == glm::dvec3(0.0)));
 }
 
 TEST_CASE("footprints are equal if and only if texels and depths are") {

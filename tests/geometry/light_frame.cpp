@@ -60,6 +60,17 @@ TEST_CASE("an engine's orthographic matrix is read as the engine means it, in ev
         }
 }
 
+TEST_CASE("an orthographic matrix that puts everything behind the eye, or nowhere, makes an invalid frame") {
+    const glm::dmat4 ortho = glm::orthoRH_ZO(-10.0, 12.0, -8.0, 9.0, 1.0, 40.0);
+    CHECK(light_frame::from_matrix(ortho * 2.0, map_size, {clip_depth::zero_to_one}).valid());
+    for (const double w : {-1.0, 0.0, std::nan("")}) {
+        CHECK_FALSE(light_frame::from_matrix(ortho * w, map_size, {clip_depth::zero_to_one}).valid());
+        glm::dmat4 other_w = ortho;
+        other_w[3][3] = w;
+        CHECK_FALSE(light_frame::from_matrix(other_w, map_size, {clip_depth::zero_to_one}).valid());
+    }
+}
+
 TEST_CASE("an engine's perspective matrix gives the same texels, and linear depth") {
     dice roll{std::mt19937_64(2)};
     const glm::dmat4 view = glm::lookAtRH(glm::dvec3(3, 20, 5), glm::dvec3(0, 1, 0), glm::dvec3(0, 1, 0));
@@ -157,6 +168,12 @@ TEST_CASE("a sheared frame sees every point where the frame does, at the sheared
     CHECK(std::abs(light.sheared({0.0f, 0.5f}).near_w() - light.near_w()) < 1e-12); // its own near plane stays
     CHECK_FALSE(light.sheared({-1.0f, 0.5f}).valid());                              // begins behind the lamp
     CHECK_FALSE(light_frame().sheared({0.25f, 0.5f}).valid());
+}
+
+TEST_CASE("a sheared frame is 2^-23 wider than the casters on both sides") {
+    const light_frame sheared = light_frame(glm::dmat4(1.0), map_size, 1.0, 1.0).sheared({0.25f, 0.5f});
+    CHECK(std::abs(sheared.to_map({0, 0, 0.25 - 0x1p-23}).depth) < 1e-12);
+    CHECK(std::abs(sheared.to_map({0, 0, 0.5 + 0x1p-23}).depth - 1.0) < 1e-12);
 }
 
 TEST_CASE("a frame that is sheared to the depths which a mesh was drawn in draws all of its texels again") {

@@ -409,6 +409,19 @@ TEST_CASE("a solid turns one side to the light and one away, also when its model
     }
 }
 
+TEST_CASE("a solid that its model matrix flattens has no outside, and no side of it is turned to the light") {
+    directional_light sun({0, -1, 0});
+    sun.add_caster(bounding_sphere{glm::dvec3(0), 5.0});
+    const light_frame light = sun.frame(map_size);
+    mesh_data m;
+    m.add(bounding_box{glm::dvec3(-2.0), glm::dvec3(2.0)});
+    const triangle_mesh flat = m.mesh(glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, 0.0, 1.0)));
+    const canvas all = draw(flat, light);
+    CHECK(all.texels() > 500);
+    CHECK(draw(flat, light, faces::lit_side).texels() == 0);
+    CHECK(draw(flat, light, faces::dark_side).count == all.count);
+}
+
 TEST_CASE("casting tells exactly what it touched, and the order of triangles does not show") {
     dice roll{std::mt19937_64(7)};
     for (int i = 0; i < 200; ++i) {

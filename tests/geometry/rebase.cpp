@@ -300,6 +300,16 @@ TEST_CASE("what is nowhere in doubles is nowhere in floats and no origin makes i
     // A frame whose middle is no number, or whose floats overflow, still answers.
     const light_frame tiny(glm::dmat4(1e-200, 0, 0, 0, 0, 1e-100, 0, 0, 0, 0, 1e-10, 0, 0, 0, 0, 1), {64, 64}, 1.0, 1.0);
     CHECK(std::isfinite(rebase_origin(tiny).x));
+    for (int axis = 0; axis < 3; ++axis) { // a lamp so far along one axis that a double cannot say where
+        glm::dmat4 m(1.0);
+        m[axis][axis] = 1e-10;
+        m[3][axis] = 1e300;
+        m[2][3] = 99.0 * m[2][2]; // W is 1 at depth 0 and 100 at depth 1
+        m[3][3] = 99.0 * m[3][2] + 1.0;
+        const light_frame lamp_far_off(m, {64, 64}, 1.0, 100.0);
+        REQUIRE(lamp_far_off.valid());
+        CHECK(rebase_origin(lamp_far_off) == glm::dvec3(0.0));
+    }
     const light_frame huge(glm::dmat4(1e90, 0, 0, 0, 0, 1e90, 0, 0, 0, 0, 1e90, 0, 0, 0, 0, 1), {64, 64}, 1.0, 1.0);
     CHECK_FALSE(rebased_frame(huge).to_map({0, 0, 0}).depth > 1.0f);
 }

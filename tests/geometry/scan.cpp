@@ -100,6 +100,18 @@ TEST_CASE("the largest coordinates are as exact as the small ones") {
     CHECK(partly > 2000);
 }
 
+TEST_CASE("a centre that an edge passes by as closely as can be is on the side where it is") {
+    // At y = 128, the edge is at 128 + 1/255, right of the first texel's centre; mirrored, at 128 - 1/255.
+    constexpr fixed_point left{-1000, 100}, right{1000, 100}, edges[2][2]{{{127, 0}, {129, 255}}, {{129, 0}, {127, 255}}};
+    for (const auto& edge : edges)
+        for (const fixed_point side : {left, right}) {
+            counted drawn({-2, -2, 3, 3});
+            drawn.add(edge[0], edge[1], side);
+            CHECK(differences(drawn, edge[0], edge[1], side) == 0);
+            CHECK(drawn.at(0, 0) == ((side.x < 0) == (edge[0].x < edge[1].x) ? 1 : 0));
+        }
+}
+
 TEST_CASE("a fan around any point covers each centre of a square once") {
     dice roll{std::mt19937_64(3)};
     int wrong = 0;

@@ -60,3 +60,17 @@ TEST_CASE("looking along a light with up above, right is right") {
     CHECK(light.to_map({0, 1, 0}).y > 32.5);
     CHECK(std::abs(light.to_map({0, 1, 0}).x - 32.0) < 1e-9);
 }
+
+TEST_CASE("a lamp that nobody has set stands at the origin and lights half a radian about -z, from 0.1 to 100") {
+    const light_frame light = spot_light{}.frame({64, 64});
+    const double rim = 10.0 * std::tan(0.5);
+    const map_point right = light.to_map({rim, 0, -10}), above = light.to_map({0, rim, -10});
+    CHECK(std::abs(right.x - 64.0) + std::abs(right.y - 32.0) < 1e-9);
+    CHECK(std::abs(above.x - 32.0) + std::abs(above.y - 64.0) < 1e-9);
+    CHECK(std::abs(light.to_map({0, 0, -0.1}).depth) < 1e-12);
+    CHECK(std::abs(light.to_map({0, 0, -100}).depth - 1.0) < 1e-12);
+    const map_point above_x = spot_light{.direction = {1, 0, 0}}.frame({64, 64}).to_map({10, 1, 0}); // up is y however it is turned
+    CHECK(std::abs(above_x.x - 32.0) < 1e-9);
+    CHECK(above_x.y > 32.5);
+    CHECK(spot_light{}.frame({2, 2}).valid()); // without a margin, unless one is asked for
+}

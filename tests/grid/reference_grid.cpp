@@ -247,6 +247,16 @@ TEST_CASE("infinite and huge rectangles cover the map, and no setting overflows"
         }
 }
 
+TEST_CASE("a radius or a margin beyond 2^20 counts as 2^20") {
+    for (const int setting : {1 << 20, (1 << 20) + 1, 2147483647}) { // tiles of 2^17 texels
+        reference_grid wide({1 << 22, 64}, setting, 0), margin({1 << 22, 64}, 0, setting);
+        CHECK(wide.cast({0, 0, 1, 64}));
+        CHECK(margin.cast({0, 0, 1, 64}));
+        CHECK(wide.row(0) == 0x1FFFF); // 2^21 texels to the right, inclusive: the first 17
+        CHECK(margin.row(0) == 0x1FF); // 2^20
+    }
+}
+
 TEST_CASE("a cleared reference grid is a new one") {
     reference_grid grid({512, 512}, 3);
     grid.cast({100, 100, 200, 200});

@@ -90,14 +90,22 @@ TEST_CASE("a column may be received backwards") {
 
 TEST_CASE_TEMPLATE("of three images the texels that all have are received", Texel, rg8, rgb16, test::paper32f) {
     test::dice dice(92);
-    const image<Texel> map = test::noise<Texel>(dice, {7, 6}, 2);
-    image<float> z({9, 5}), intensity({8, 4}, untouched);
+    const image<Texel> map = test::noise<Texel>(dice, {10, 10}, 2);
+    image<float> z(map.size());
     test::for_each_texel(whole(z.size()), [&](int x, int y) { z(x, y) = dice.unit(); });
-    receive(map.view(), image_view<const float>(z.view()), intensity.view(), decision);
     sweep wrong;
-    test::for_each_texel({0, 0, 8, 4}, [&](int x, int y) {
-        wrong.unless(test::same_bits(intensity(x, y), x < 7 ? shadow(map(x, y), z(x, y), decision) : untouched), "x", x, "y", y);
-    });
+    const extent sizes[]{{7, 6}, {9, 5}, {8, 4}}; // as three parts of larger images, in three orders
+    for (int first = 0; first < 3; ++first) {
+        image<float> intensity(map.size(), untouched);
+        const auto part = [&](int i) { return whole(sizes[(first + i) % 3]); };
+        receive(map.view().part(part(0)), image_view<const float>(z.view()).part(part(1)), intensity.view().part(part(2)),
+                decision);
+        test::for_each_texel(whole(map.size()), [&](int x, int y) {
+            const bool in_all = x < 7 && y < 4;
+            wrong.unless(test::same_bits(intensity(x, y), in_all ? shadow(map(x, y), z(x, y), decision) : untouched), "order",
+                         first, "x", x, "y", y);
+        });
+    }
     CHECK(wrong.report() == "");
 }
 

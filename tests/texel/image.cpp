@@ -94,6 +94,7 @@ TEST_CASE("an image with a side that is zero or negative has no texels there") {
     image<int>({-3, 4}).view().fill({-9, -9, 9, 9}, 1);
     CHECK(image_view<int>(nullptr, {-3, 4}).size().empty());
     CHECK(image_view<int>().size().empty());
+    CHECK((image_view<int>().data() == nullptr && image_view<int>().stride() == 0));
 }
 
 TEST_CASE("filling a view without a rectangle fills all of it") {

@@ -101,8 +101,13 @@ constexpr rgba8 a_bounded_caster() {
 }
 static_assert(a_bounded_caster() == rgba8{{204, 255, 102, 102}});
 
-using all_effects_u8 = texel<unorm8, depth_mask, test::both>;
-static_assert(std::is_same_v<rgba8, all_effects_u8>); // the short names are names, not other types
+// The short names are names, not other types.
+template <effects Effects, typename... Texels>
+constexpr bool are = std::is_same_v<void(Texels...), void(texel<unorm8, depth_mask, Effects>, texel<unorm16, depth_mask, Effects>,
+                                                          texel<half16, depth_mask, Effects>, texel<float32, depth_mask, Effects>)>;
+static_assert(are<effects{}, rg8, rg16, rg16f, rg32f> && are<test::bounded, rgb8, rgb16, rgb16f, rgb32f> &&
+              are<test::translucent, rga8, rga16, rga16f, rga32f> && are<test::both, rgba8, rgba16, rgba16f, rgba32f>);
+static_assert(std::is_same_v<tm8, texel<unorm8, depth_ratio>> && std::is_same_v<tm16, texel<unorm16, depth_ratio>>);
 
 /// All casters that can be told apart in 8 bits by few numbers: depths and opacities with ends, neighbours and equals.
 template <typename Texel> std::vector<Texel> some_casters() {
@@ -126,6 +131,16 @@ TEST_CASE_TEMPLATE("a clear texel is all zero and the paper's is one where depth
     }
     CHECK(!clear.occupied());
     if (complement) CHECK(clear == Texel{});
+}
+
+TEST_CASE_TEMPLATE("texels are equal if and only if all of their channels are", Texel, EVERY_TEXEL) {
+    const Texel texel = Texel::caster(0.25f);
+    CHECK(texel == Texel::caster(0.25f));
+    for (int c = 0; c < Texel::channels; ++c) {
+        Texel other = texel;
+        other.stored[c] = Texel::channel_type::encode(number(texel, c) > 0.5 ? 0.0 : 1.0);
+        CHECK(other != texel);
+    }
 }
 
 TEST_CASE_TEMPLATE("a caster stores its depth in its own way and a full mask", Texel, EVERY_TEXEL) {
@@ -184,6 +199,12 @@ TEST_CASE_TEMPLATE("a receiver at the depth of its caster is lit and one float b
                 wrong.unless(Representation::behind(depth, mask, static_cast<double>(z)) == (z > s), "e", e, "m", m, "z", z);
         }
     CHECK(wrong.report() == "");
+}
+
+TEST_CASE_TEMPLATE("where no mask is left every receiver is behind a depth and none is behind nothing", Representation, depth_mask,
+                   depth_ratio, paper_depth_mask) {
+    for (const double z : {-1.0, 0.0, 0.25, 0.5, 1.0, 2.0})
+        for (const double e : {0.0, 0x1p-100, 0.5, 1.0, 255.0}) CHECK(Representation::behind(e, 0.0, z) == (e > 0.0));
 }
 
 TEST_CASE_TEMPLATE("a caster outside of 0 to 1 is clamped and one at NaN is at the far plane", Texel, EVERY_TEXEL) {

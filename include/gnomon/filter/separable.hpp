@@ -40,8 +40,8 @@ template <texel_format Texel, kernel Kernel> class filter_scratch {
 
 namespace detail {
 
-/// A double cut to so many significant bits, to nearest, halves upwards, by integer arithmetic: times a weight of the 53 - Bits that
-/// are left it is then exact, so a sum of such products has the same bits whether or not a compiler fuses multiply and add.
+/// A double cut to so many significant bits, to nearest, halves upwards, by integer arithmetic: times a weight of the 53 - Bits
+/// that are left it is then exact, so a sum of such products has the same bits whether or not a compiler fuses multiply and add.
 /// Monotone; relative error 2^-Bits.
 template <int Bits> [[nodiscard]] constexpr double to_bits(double v) noexcept {
     constexpr std::uint64_t dropped = (std::uint64_t{1} << (53 - Bits)) - 1;

@@ -17,7 +17,8 @@ struct triangle_mesh {
 };
 
 /// Which triangles take part, by the side they turn to the light. Counter-clockwise from outside, in the mesh's own space: a
-/// mirroring model matrix does not turn it inside out. A triangle seen exactly edge-on counts as turned away.
+/// mirroring model matrix does not turn it inside out. A triangle seen exactly edge-on counts as turned away, and so does all that
+/// the model matrix flattens.
 enum class faces { both, lit_side, dark_side };
 
 /// What rounding a depth in [0, 1] to float costs at most: 2^-25.
@@ -28,8 +29,8 @@ template <typename T>
 concept marked_texels =
     requires(const T& where, texel_rect r) { where.touches(r); } || requires(const T& where, texel_rect r) { where(r); };
 
-/// The region without a limit, and the test that skips nothing.
-inline constexpr texel_rect everywhere{-(1 << 29), -(1 << 29), 1 << 29, 1 << 29};
+/// The region without a limit, which is the largest map there is, and the test that skips nothing.
+inline constexpr texel_rect everywhere = whole({light_frame::largest_side, light_frame::largest_side});
 struct touches_everything {
     [[nodiscard]] constexpr bool operator()(texel_rect) const noexcept { return true; }
 };

@@ -43,7 +43,7 @@ namespace detail {
     if (!light.valid()) return glm::dvec3(0.0);
     const glm::dmat4& m = light.matrix();
     const double range = light.far_w() - light.near_w();
-    const glm::dvec3 corner = light.perspective() ? glm::dvec3(0.0) : glm::dvec3(light.size().width, light.size().height, 1.0);
+    const glm::dvec3 corner(light.size().width, light.size().height, 1.0);
     const glm::dvec3 middle =
         detail::unproject(m, light.perspective() ? glm::dvec3(0.0, 0.0, -light.near_w() / range) : corner * 0.5);
     double reach = 0.0; // to the farthest corner of the box; to the near plane of a cone
