@@ -225,7 +225,8 @@ bool filter_rows(image_view<const Texel> from, image_view<Texel> to, texel_rect 
             for (int j = 0; j < lesser(rows_at_once, region.y1 - y); ++j) {
                 typename pass::element* const here = sums + j * pass::line_size;
                 pass::clear(here, 0, -(x0 - margin));
-                pass::clear(here, row_size - (x0 - margin), x1 - x0 + 2 * margin);
+                const int end = x1 - x0 + 2 * margin; // and one texel more, which a pair of taps may read without a weight
+                pass::clear(here, lesser(row_size - (x0 - margin), end), end + channels);
                 storage* const out = channels_of(to.row(y + j)) + x0;
                 for (int at = 0; at < x1 - x0; at += pass::step) {
                     if (x1 - x0 < pass::step) {
