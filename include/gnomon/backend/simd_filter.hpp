@@ -27,7 +27,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct wide_filter {
     static constexpr int step = Isa::double_lanes; ///< channels that are made at a time
     static constexpr int strip = strip_bytes / static_cast<int>(sizeof(double)) / Texel::channels * Texel::channels;
     static constexpr int margin = Kernel::radius * Texel::channels;
-    static constexpr int line_size = step + strip + 2 * margin + step; ///< for one row, in elements
+    static constexpr int line_size = step + strip + 2 * margin + step + Texel::channels; ///< for one row, in elements
     static constexpr int taps = 2 * Kernel::radius + 1;
     [[nodiscard]] static constexpr int place(int i) noexcept { return i; }
 
@@ -97,7 +97,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct byte_filter {
     static constexpr int step = Isa::bytes;
     static constexpr int strip = strip_bytes;
     static constexpr int margin = Kernel::radius * Texel::channels;
-    static constexpr int plane_size = (step + strip + 2 * margin + step) / 2; ///< depths first, masks behind them
+    static constexpr int plane_size = (step + strip + 2 * margin + step + Texel::channels) / 2; ///< depths first, masks behind them
     static constexpr int line_size = 2 * plane_size;
     static constexpr int taps = 2 * Kernel::radius + 1;
     [[nodiscard]] static constexpr int place(int i) noexcept { return i / 2; }
