@@ -259,7 +259,7 @@ def run(tree, given):
         known = (header, mutant.before, mutant.after) in explained.reasons
         near = given.near or known  # of one that is explained the header's own tests say soon enough that they find it by now
         found_key, survived_key, name = digest(header, tree.text[header]), survivor_key(header, near), digest(mutant.text)
-        old = kept.get((found_key, name)) or kept.get((survived_key, name))
+        old = kept.get((found_key, name)) or kept.get((survived_key, name)) or (known and kept.get((survivor_key(header, given.near), name)))
         start = time.monotonic()
         answer, said = old[:2] if old else judge(tree, header, mutant, near)
         seconds = old[2] if old else time.monotonic() - start
