@@ -39,7 +39,7 @@ struct checks_of {
 #include "lanes_checks.inl"
 #undef CHECKS_ON
 #if GNOMON_X86
-GNOMON_TARGET_BEGIN("avx2,fma,f16c")
+GNOMON_TARGET_BEGIN(GNOMON_AVX2)
 #define CHECKS_ON with_avx2
 #include "lanes_checks.inl"
 #undef CHECKS_ON

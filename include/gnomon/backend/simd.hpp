@@ -4,15 +4,14 @@
 #include <gnomon/backend/scalar.hpp>
 #include <gnomon/simd/isa.hpp>
 
-#include <array>
-#include <cstring>
+#include <concepts>
 
 #define GNOMON_ON on_any
 #include <gnomon/backend/simd_filter.hpp>
 #include <gnomon/backend/simd_receive.hpp>
 #undef GNOMON_ON
 #if GNOMON_X86
-GNOMON_TARGET_BEGIN("avx2,fma,f16c")
+GNOMON_TARGET_BEGIN(GNOMON_AVX2)
 #define GNOMON_ON on_avx2
 #include <gnomon/backend/simd_filter.hpp>
 #include <gnomon/backend/simd_receive.hpp>
@@ -88,8 +87,8 @@ template <typename F> auto with_lanes(cpu_level, F&& f) noexcept { return f.temp
 /// Filters and receives in lanes: simd<> in those the processor has, simd<avx2> and the like in these alone, simd<Yours> in a
 /// simd_isa of your own. Results are those of `scalar`, bit for bit; of a NaN in half or float texels only that it is one.
 ///
-/// What lanes do not know is left to `scalar`: depth_ratio, channels of a user's, radii beyond 256, maps narrower than a register; and in `receive` half and
-/// float texels, the paper's pair, far bounds, and positions. Needs no scratch for what it does itself.
+/// What lanes do not know is left to `scalar`: depth_ratio, channels of a user's, radii beyond 256, maps narrower than a register;
+/// and in `receive` half and float texels, the paper's pair, far bounds, and positions. Needs no scratch for what it does itself.
 /// \pre the processor has the lanes that are named: ask best_lanes(). simd<> has no such condition.
 template <typename Isa = best_isa> struct simd {
     static_assert(std::same_as<Isa, best_isa> || simd_isa<Isa>,

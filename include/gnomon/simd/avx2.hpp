@@ -3,14 +3,15 @@
 
 #include <gnomon/simd/region.hpp>
 #if GNOMON_X86
-#include <gnomon/texel/channel.hpp>
+#include <gnomon/simd/emulated.hpp>
 
 #include <concepts>
 #include <cstdint>
 #include <cstring>
 #include <immintrin.h>
 
-GNOMON_TARGET_BEGIN("avx2,fma,f16c")
+#define GNOMON_AVX2 "avx2,fma,f16c"
+GNOMON_TARGET_BEGIN(GNOMON_AVX2)
 namespace gnomon {
 
 struct avx2 {
@@ -71,9 +72,7 @@ struct avx2 {
             const ints pairs = load(from);
             return _mm256_cvtepi32_ps(c == 0 ? _mm256_and_si256(pairs, _mm256_set1_epi32(65535)) : _mm256_srli_epi32(pairs, 16));
         } else {
-            float lane[static_cast<std::size_t>(float_lanes)];
-            for (int i = 0; i < float_lanes; ++i) lane[i] = Channel::code(from[i * Channels + c]);
-            return load(lane);
+            return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
     }
 

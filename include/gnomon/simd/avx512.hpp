@@ -3,7 +3,7 @@
 
 #include <gnomon/simd/region.hpp>
 #if GNOMON_X86
-#include <gnomon/texel/channel.hpp>
+#include <gnomon/simd/emulated.hpp>
 
 #include <concepts>
 #include <cstdint>
@@ -64,9 +64,7 @@ struct avx512 {
             const ints pairs = load(from);
             return number(c == 0 ? _mm512_and_si512(pairs, _mm512_set1_epi32(65535)) : _mm512_maskz_srli_epi32(all, pairs, 16));
         } else {
-            float lane[static_cast<std::size_t>(float_lanes)];
-            for (int i = 0; i < float_lanes; ++i) lane[i] = Channel::code(from[i * Channels + c]);
-            return load(lane);
+            return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
     }
 

@@ -3,7 +3,7 @@
 
 #include <gnomon/simd/region.hpp>
 #if GNOMON_X86
-#include <gnomon/texel/channel.hpp>
+#include <gnomon/simd/emulated.hpp>
 
 #include <concepts>
 #include <cstdint>
@@ -73,9 +73,7 @@ struct sse2 {
             const ints pairs = load(from);
             return _mm_cvtepi32_ps(c == 0 ? _mm_and_si128(pairs, _mm_set1_epi32(65535)) : _mm_srli_epi32(pairs, 16));
         } else {
-            float lane[static_cast<std::size_t>(float_lanes)];
-            for (int i = 0; i < float_lanes; ++i) lane[i] = Channel::code(from[i * Channels + c]);
-            return load(lane);
+            return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
     }
 
