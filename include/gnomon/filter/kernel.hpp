@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A separable filter: 2 * radius + 1 whole weights, whose sum is `total`; a tap counts weight / total.
 ///
@@ -173,4 +173,4 @@ template <kernel Kernel> struct eight_bit {
     }();
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// What a line between the passes holds: whole numbers where codes are whole (exact), doubles otherwise.
 template <texel_format Texel>
@@ -126,4 +126,4 @@ void filter_region(std::type_identity_t<image_view<const Texel>> from, image_vie
     }
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

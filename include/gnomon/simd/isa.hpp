@@ -15,7 +15,7 @@
 #include <cpuid.h>
 #endif
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A set of lanes. `emulated` says what each operation means; bring your own by answering the same list.
 template <typename Isa>
@@ -121,4 +121,4 @@ inline void ask_cpuid(std::uint32_t leaf, std::uint32_t (&r)[4]) noexcept { __cp
     return level;
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD
