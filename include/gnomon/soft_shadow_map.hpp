@@ -6,7 +6,7 @@
 
 #include <concepts>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// The size of a soft_shadow_map, in texels. Tiles of 16 to 64 texels serve most maps. An empty map is lit everywhere.
 struct map_size {
@@ -145,4 +145,4 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
     filter_scratch<Texel, Kernel> scratch_;
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -3,7 +3,7 @@
 
 #include <gnomon/backend/backend.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// The oracle: plain loops over plain numbers, the same bits on every machine and compiler.
 struct scalar {
@@ -26,4 +26,4 @@ struct scalar {
 
 static_assert(backend_for<scalar, rg8, box<1>>);
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -25,7 +25,7 @@ GNOMON_TARGET_BEGIN(GNOMON_AVX512)
 GNOMON_TARGET_END
 #endif
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// The best lanes that the processor has: asked at run time, so no compiler flag is needed.
 struct best_isa {};
@@ -133,4 +133,4 @@ template <typename Isa = best_isa> struct simd {
 
 static_assert(backend_for<simd<>, rg8, box<1>>);
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

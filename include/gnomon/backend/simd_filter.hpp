@@ -13,7 +13,7 @@
 #include <type_traits>
 
 #ifdef GNOMON_ON
-namespace gnomon::GNOMON_ON {
+namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
 /// Rows that are summed side by side, and bytes of a row that a strip takes.
 inline constexpr int rows_at_once = 4, strip_bytes = 4096;
@@ -374,5 +374,5 @@ bool filter_rows(image_view<const Texel> from, image_view<Texel> to, texel_rect 
     return true;
 }
 
-} // namespace gnomon::GNOMON_ON
+} // namespace gnomon::inline GNOMON_BUILD::GNOMON_ON
 #endif

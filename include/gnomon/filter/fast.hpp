@@ -7,7 +7,7 @@
 #include <concepts>
 #include <type_traits>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// Any kernel, where accuracy may be traded for time: filter_scratch<rg16, fast<gaussian<4>>>. What that means depends on the texel.
 ///
@@ -72,4 +72,4 @@ inline constexpr int filter_roundings = [] {
     return std::same_as<typename Texel::channel_type, float32> ? roundings + 1 : 2; // of 2^-24 each: in halves less than one
 }();
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A separable filter: 2 * radius + 1 whole weights, whose sum is `total`; a tap counts weight / total.
 ///
@@ -181,4 +181,4 @@ template <kernel Kernel> struct eight_bit : detail::in_units<Kernel, 256> {
                   "gnomon: eight_bit<Kernel>: the radius must be 1..32; beyond, 256 units are too few for the weights of a kernel");
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// What a line between the passes holds: whole numbers where codes are whole (exact), doubles otherwise.
 template <texel_format Texel>
@@ -165,4 +165,4 @@ void filter_region(std::type_identity_t<image_view<const Texel>> from, image_vie
     }
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

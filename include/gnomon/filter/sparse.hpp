@@ -4,7 +4,7 @@
 #include <gnomon/filter/separable.hpp>
 #include <gnomon/grid/regions.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// Calls f(texel_rect) for what a filter of this kernel has to write. Where the grid was marked with a guard band narrower than
 /// the kernel's radius, that is the whole map: slower, never wrong. (Then the whole result is to be cleared before the next
@@ -19,4 +19,4 @@ template <texel_format Texel> void clear_tiles(image_view<Texel> texels, const t
     for_each_region(tiles, [&](texel_rect r) { texels.fill(r, Texel::clear()); });
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

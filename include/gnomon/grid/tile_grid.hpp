@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A map cut into square tiles, one bit a tile, set where a caster's shadow may lie.
 ///
@@ -148,4 +148,4 @@ class tile_grid {
     std::vector<bit_word> occupied_rows_;
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

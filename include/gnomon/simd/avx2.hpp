@@ -12,7 +12,7 @@
 
 #define GNOMON_AVX2 "avx2,fma,f16c"
 GNOMON_TARGET_BEGIN(GNOMON_AVX2)
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 struct avx2 {
     static constexpr int bytes = 32;
@@ -154,6 +154,6 @@ struct avx2 {
     }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD
 GNOMON_TARGET_END
 #endif

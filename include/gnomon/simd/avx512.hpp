@@ -12,7 +12,7 @@
 
 #define GNOMON_AVX512 "avx2,fma,f16c,avx512f,avx512bw,avx512dq,avx512vl,avx512vnni"
 GNOMON_TARGET_BEGIN(GNOMON_AVX512)
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 struct avx512 {
     static constexpr int bytes = 64;
@@ -156,6 +156,6 @@ struct avx512 {
     }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD
 GNOMON_TARGET_END
 #endif

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A register of `Bytes` bytes: whole numbers of 8, 16 or 32 bits in one type, as processors have it, and doubles.
 ///
@@ -234,4 +234,4 @@ template <int Bytes> struct emulated {
     }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

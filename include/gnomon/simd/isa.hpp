@@ -15,7 +15,7 @@
 #include <cpuid.h>
 #endif
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A set of lanes. `emulated` says what each operation means; bring your own by answering the same list.
 template <typename Isa>
@@ -108,7 +108,7 @@ inline void ask_cpuid(std::uint32_t leaf, std::uint32_t (&registers)[4]) noexcep
 inline void ask_cpuid(std::uint32_t leaf, std::uint32_t (&r)[4]) noexcept { __cpuid_count(leaf, 0, r[0], r[1], r[2], r[3]); }
 [[nodiscard]] inline std::uint32_t kept_registers() noexcept {
     std::uint32_t low, high;
-    asm("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
+    asm volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0)); // not volatile, it may be asked before OSXSAVE is
     return low;
 }
 #endif
@@ -134,4 +134,4 @@ inline void ask_cpuid(std::uint32_t leaf, std::uint32_t (&r)[4]) noexcept { __cp
     return level;
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

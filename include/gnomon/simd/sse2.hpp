@@ -10,7 +10,7 @@
 #include <cstring>
 #include <emmintrin.h>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 struct sse2 {
     static constexpr int bytes = 16;
@@ -132,5 +132,5 @@ struct sse2 {
     GNOMON_LANES doubles upper(floats a) noexcept { return _mm_cvtps_pd(_mm_movehl_ps(a, a)); }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD
 #endif
