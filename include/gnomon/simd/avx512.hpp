@@ -25,6 +25,9 @@ struct avx512 {
 
     GNOMON_LANES ints load(const void* from) noexcept { return _mm512_loadu_si512(from); }
     GNOMON_LANES_VOID void store(void* to, ints a) noexcept { _mm512_storeu_si512(to, a); }
+    GNOMON_LANES_VOID void stream(void* to, ints a) noexcept { _mm512_stream_si512(static_cast<__m512i*>(to), a); }
+    GNOMON_LANES_VOID void fence() noexcept { _mm_sfence(); }
+    GNOMON_LANES_VOID void prefetch(const void* from) noexcept { _mm_prefetch(static_cast<const char*>(from), _MM_HINT_T0); }
     GNOMON_LANES ints repeat32(std::uint32_t v) noexcept { return _mm512_set1_epi32(static_cast<int>(v)); }
     GNOMON_LANES ints exclusive_or(ints a, ints b) noexcept { return _mm512_xor_si512(a, b); }
 
@@ -53,6 +56,9 @@ struct avx512 {
     GNOMON_LANES ints narrow16(ints a, ints b) noexcept {
         return _mm512_maskz_permutexvar_epi64(eight, _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7), _mm512_packus_epi16(a, b));
     }
+    GNOMON_LANES ints add_dot8(ints sum, ints weights, ints values) noexcept { return _mm512_dpbusd_epi32(sum, values, weights); }
+    GNOMON_LANES ints even_words(ints a, ints b) noexcept { return _mm512_permutex2var_epi16(a, word_order(0), b); }
+    GNOMON_LANES ints odd_words(ints a, ints b) noexcept { return _mm512_permutex2var_epi16(a, word_order(1), b); }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
     GNOMON_LANES floats load(const float* from) noexcept { return _mm512_loadu_ps(from); }
@@ -143,6 +149,12 @@ struct avx512 {
     }
 
   private:
+    /// Word 0, 2, 4, 6 of each 16 bytes of the first of two registers, then of the second.
+    GNOMON_LANES ints word_order(int odd) noexcept {
+        alignas(64) static constexpr std::int16_t order[32] = {0,  2,  4,  6,  32, 34, 36, 38, 8,  10, 12, 14, 40, 42, 44, 46,
+                                                               16, 18, 20, 22, 48, 50, 52, 54, 24, 26, 28, 30, 56, 58, 60, 62};
+        return _mm512_add_epi16(load(order), _mm512_set1_epi16(static_cast<short>(odd)));
+    }
     static constexpr __mmask8 eight = 0xFF;
     static constexpr __mmask16 all = 0xFFFF; // g++ 12 warns of the undefined register that the forms without a mask begin with
     GNOMON_LANES floats number(ints a) noexcept { return _mm512_maskz_cvtepi32_ps(all, a); }

@@ -35,6 +35,11 @@ template <int Bytes> struct emulated {
 
     [[nodiscard]] static ints load(const void* from) noexcept { return copied<ints>(from); }
     static void store(void* to, ints a) noexcept { std::memcpy(to, &a, sizeof a); }
+    /// Stores past the caches, where there is such a way; what is stored so others see after a fence. \pre aligned to a register
+    static void stream(void* to, ints a) noexcept { store(to, a); }
+    static void fence() noexcept {}
+    /// Calls for memory that will soon be read; any address will do.
+    static void prefetch(const void*) noexcept {}
     /// The same 32 bits again and again.
     [[nodiscard]] static ints repeat32(std::uint32_t v) noexcept {
         return each<std::uint32_t>([v](int) { return v; });
@@ -96,6 +101,19 @@ template <int Bytes> struct emulated {
     [[nodiscard]] static ints narrow16(ints a, ints b) noexcept {
         return each<std::uint8_t>([&](int i) { return at<std::uint16_t>(i < Bytes / 2 ? a : b, i % (Bytes / 2)); });
     }
+    /// 32 bits: `sum`, and four neighbours' products, signed weight times unsigned value, modulo 2^32.
+    [[nodiscard]] static ints add_dot8(ints sum, ints weights, ints values) noexcept {
+        return each<std::uint32_t>([&](int i) {
+            std::uint32_t total = at<std::uint32_t>(sum, i);
+            for (int k = 4 * i; k < 4 * i + 4; ++k)
+                total += static_cast<std::uint32_t>(static_cast<std::int8_t>(weights.byte[k]) * values.byte[k]);
+            return total;
+        });
+    }
+    /// In each 16 bytes, and in order over these: 16 bits 0, 2, 4 and 6 of `a`, then those of `b`; and 1, 3, 5 and 7. Of registers
+    /// that hold pairs, 16 bytes of either in turn, the first numbers and the second ones.
+    [[nodiscard]] static ints even_words(ints a, ints b) noexcept { return words(a, b, 0); }
+    [[nodiscard]] static ints odd_words(ints a, ints b) noexcept { return words(a, b, 1); }
     /// Nothing. Where a compiler would sum products as a tree, which takes more registers than there are, it keeps their order.
     static void settle(ints&) noexcept {}
 
@@ -215,6 +233,9 @@ template <int Bytes> struct emulated {
     template <typename T> [[nodiscard]] static ints paired(ints a, ints b, int first) noexcept {
         constexpr int size = static_cast<int>(sizeof(T)), lane = 16 / size;
         return each<T>([&](int i) { return at<T>(i % 2 == 0 ? a : b, i / lane * lane + first / size + i % lane / 2); });
+    }
+    [[nodiscard]] static ints words(ints a, ints b, int odd) noexcept {
+        return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(i % 8 < 4 ? a : b, i / 8 * 8 + i % 4 * 2 + odd); });
     }
     [[nodiscard]] static ints in_turn(ints low, ints high, int first) noexcept {
         return each<std::uint8_t>([&](int i) {

@@ -27,6 +27,9 @@ concept simd_isa =
         requires std::same_as<std::remove_cv_t<decltype(Isa::double_lanes)>, int>;
         { Isa::load(memory) } -> std::same_as<typename Isa::ints>;
         { Isa::store(memory, i) };
+        { Isa::stream(memory, i) };
+        { Isa::fence() };
+        { Isa::prefetch(static_cast<const void*>(memory)) };
         { Isa::repeat32(std::uint32_t{}) } -> std::same_as<typename Isa::ints>;
         { Isa::exclusive_or(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::even_pairs8(i, i) } -> std::same_as<typename Isa::ints>;
@@ -72,6 +75,14 @@ concept simd_isa =
         { Isa::template store_codes<float32>(numbers, f) };
         { Isa::template store_codes<unorm8>(codes, d) };
     };
+
+/// Lanes that sum four products of bytes at once. Optional: filters of bytes are quicker by them.
+template <typename Isa>
+concept sums_quads = simd_isa<Isa> && requires(typename Isa::ints i) {
+    { Isa::add_dot8(i, i, i) } -> std::same_as<typename Isa::ints>;
+    { Isa::even_words(i, i) } -> std::same_as<typename Isa::ints>;
+    { Isa::odd_words(i, i) } -> std::same_as<typename Isa::ints>;
+};
 
 /// Which lanes a processor has.
 enum class cpu_level { portable, sse2, avx2, avx512 };
