@@ -180,7 +180,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct byte_filter {
         const ints sign = Isa::repeat32(0x80808080u);
         GNOMON_UNROLL(4)
         for (int j = 0; j < rows_at_once; ++j) depth[j] = mask[j] = Isa::repeat32(0);
-        GNOMON_UNROLL(1)
+        GNOMON_UNROLL(8)
         for (int t = 0; t < taps + rows_at_once - 1; t += 2) {
             const ints above = Isa::exclusive_or(Isa::load(rows[t] + i), sign),
                        below = Isa::exclusive_or(Isa::load(rows[t + 1] + i), sign);
@@ -200,7 +200,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct byte_filter {
         ints sum[rows_at_once][4];
         GNOMON_UNROLL(4)
         for (int j = 0; j < rows_at_once; ++j) sum[j][0] = sum[j][1] = sum[j][2] = sum[j][3] = Isa::repeat32(0xFFFF8000u); // -2^15
-        GNOMON_UNROLL(1)
+        GNOMON_UNROLL(8)
         for (int t = 0; t < taps + rows_at_once - 1; t += 4) {
             const ints a = Isa::load(rows[t] + i), b = Isa::load(rows[t + 1] + i), c = Isa::load(rows[t + 2] + i),
                        d = Isa::load(rows[t + 3] + i);
@@ -237,12 +237,12 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct byte_filter {
     GNOMON_LANES_VOID void row(const std::int16_t* line, storage* to) noexcept {
         const ints start = Isa::repeat32((1u << 23) + (1u << 15)); // 256 * 2^15 that the columns lack, and a half
         ints depth[2] = {start, start}, mask[2] = {start, start};  // of every even texel, and of every odd one
-        GNOMON_UNROLL(2)
+        GNOMON_UNROLL(8)
         for (int t = 0; t < taps; t += 2) {
             ints depths = Isa::load(line + t), masks = Isa::load(line + plane_size + t);
             Isa::settle(depths);
             Isa::settle(masks);
-            GNOMON_UNROLL(2)
+            GNOMON_UNROLL(8)
             for (int odd = 0; odd < 2; ++odd) { // an odd one finds its taps in the same pairs, one place later
                 const ints w = Isa::repeat32(weights::template at<16>(t - odd));
                 depth[odd] = Isa::add_dot16(depth[odd], w, depths);
@@ -286,7 +286,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct word_filter {
             pair_of_sums sum[rows_at_once];
             GNOMON_UNROLL(4)
             for (int j = 0; j < rows_at_once; ++j) sum[j] = {start, start};
-            GNOMON_UNROLL(1)
+            GNOMON_UNROLL(8)
             for (int t = 0; t < taps + rows_at_once - 1; t += 2) {
                 const ints above = Isa::exclusive_or(Isa::load(rows[t] + i), sign),
                            below = Isa::exclusive_or(Isa::load(rows[t + 1] + i), sign);
@@ -346,7 +346,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct word_filter {
     GNOMON_LANES pair_of_sums sum_of(const std::int16_t* line) noexcept {
         const ints start = Isa::repeat32(bytes ? (1u << 23) + (1u << 15) : 1u << 14); // 256 * 2^15 that the columns lack; a half
         pair_of_sums sum = {start, start};
-        GNOMON_UNROLL(2)
+        GNOMON_UNROLL(8)
         for (int t = 0; t < taps; t += 2) {
             const ints here = Isa::load(line + t * Texel::channels), next = Isa::load(line + (t + 1) * Texel::channels);
             const ints w = Isa::repeat32(weights::template at<16>(t));

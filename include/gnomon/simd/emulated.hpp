@@ -114,6 +114,32 @@ template <int Bytes> struct emulated {
     /// that hold pairs, 16 bytes of either in turn, the first numbers and the second ones.
     [[nodiscard]] static ints even_words(ints a, ints b) noexcept { return words(a, b, 0); }
     [[nodiscard]] static ints odd_words(ints a, ints b) noexcept { return words(a, b, 1); }
+    [[nodiscard]] static ints add32(ints a, ints b) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) + at<std::uint32_t>(b, i); });
+    }
+    [[nodiscard]] static ints subtract32(ints a, ints b) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) - at<std::uint32_t>(b, i); });
+    }
+    /// Bytes or 16 bits, one to each 32 bits; and back, the lowest of each.
+    template <typename Storage> [[nodiscard]] static ints widen32(const Storage* from) noexcept {
+        return each<std::uint32_t>([&](int i) { return from[i]; });
+    }
+    template <typename Storage> static void store_low(Storage* to, ints a) noexcept {
+        for (int i = 0; i < float_lanes; ++i) to[i] = static_cast<Storage>(at<std::uint32_t>(a, i));
+    }
+    /// Each 32 bits so many places on, zeros before them.
+    template <int Places> [[nodiscard]] static ints shift_up32(ints a) noexcept {
+        return each<std::uint32_t>([&](int i) { return i < Places ? 0u : at<std::uint32_t>(a, i - Places); });
+    }
+    /// The last `Count` of 32 bits, again and again from the first place on.
+    template <int Count> [[nodiscard]] static ints repeat_last32(ints a) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, float_lanes - Count + i % Count); });
+    }
+    /// a * b / 2^Shift, unsigned, rounded down. \pre it fits, and 32 <= Shift < 64
+    template <int Shift> [[nodiscard]] static ints multiply_shift32(ints a, ints b) noexcept {
+        return each<std::uint32_t>(
+            [&](int i) { return std::uint64_t{at<std::uint32_t>(a, i)} * at<std::uint32_t>(b, i) >> Shift; });
+    }
     /// Nothing. Where a compiler would sum products as a tree, which takes more registers than there are, it keeps their order.
     static void settle(ints&) noexcept {}
 

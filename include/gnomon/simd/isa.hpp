@@ -47,6 +47,13 @@ concept simd_isa =
         { Isa::template shift_right32<16>(i) } -> std::same_as<typename Isa::ints>;
         { Isa::narrow32(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::narrow16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::add32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::subtract32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::widen32(static_cast<const std::uint8_t*>(codes)) } -> std::same_as<typename Isa::ints>;
+        { Isa::store_low(codes, i) };
+        { Isa::template shift_up32<2>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template repeat_last32<2>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template multiply_shift32<32>(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::settle(i) };
         { Isa::load(static_cast<const float*>(numbers)) } -> std::same_as<typename Isa::floats>;
         { Isa::store(numbers, f) };
