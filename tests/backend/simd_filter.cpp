@@ -119,18 +119,19 @@ TEST_CASE_TEMPLATE("what lanes do not know is left to the oracle: a ratio of two
 
 TEST_CASE("lanes count in what is quickest and still exact: words, or doubles; and in floats where a kernel says fast") {
     using gnomon::fast;
-    using gnomon::on_any::byte_filter;
+    using gnomon::on_any::pair_filter;
     using gnomon::on_any::word_filter;
     using lanes = emulated<16>;
     const auto goes_by = []<template <typename, typename, typename> typename Filter, typename Texel, typename Kernel>() {
         return std::same_as<gnomon::on_any::filter_of<lanes, Kernel, Texel>, Filter<lanes, Kernel, Texel>>;
     };
-    CHECK(goes_by.operator()<byte_filter, rg8, binomial<4>>());
-    CHECK(goes_by.operator()<byte_filter, rg8, tent<1>>());
-    CHECK(goes_by.operator()<byte_filter, rg8, fast<gaussian<2>>>());
+    CHECK(goes_by.operator()<pair_filter, rg8, binomial<4>>());
+    CHECK(goes_by.operator()<pair_filter, rg8, tent<1>>());
+    CHECK(goes_by.operator()<pair_filter, rg8, fast<gaussian<2>>>());
     CHECK(goes_by.operator()<word_filter, gnomon::rgb8, binomial<1>>());
     CHECK(goes_by.operator()<word_filter, gnomon::rgba8, fast<gaussian<2>>>());
-    CHECK(goes_by.operator()<word_filter, gnomon::rg16, fast<binomial<1>>>());
+    CHECK(goes_by.operator()<word_filter, gnomon::rgb16, fast<gaussian<2>>>());
+    CHECK(goes_by.operator()<pair_filter, gnomon::rg16, fast<binomial<1>>>());
     CHECK(goes_by.operator()<doubles, rg8, tent<2>>());     // 1/81
     CHECK(goes_by.operator()<doubles, rg8, gaussian<2>>()); // sixteen bits
     CHECK(goes_by.operator()<doubles, rg8, box<0>>());      // 256 is no byte

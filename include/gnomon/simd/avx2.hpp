@@ -58,6 +58,15 @@ struct avx2 {
     template <int Bits> GNOMON_LANES ints shift_right32(ints a) noexcept { return _mm256_srai_epi32(a, Bits); }
     GNOMON_LANES ints narrow32(ints a, ints b) noexcept { return _mm256_packs_epi32(a, b); }
     GNOMON_LANES ints narrow16(ints a, ints b) noexcept { return _mm256_permute4x64_epi64(_mm256_packus_epi16(a, b), 0xD8); }
+    GNOMON_LANES ints even_words(ints a, ints b) noexcept { return _mm256_unpacklo_epi64(words_apart(a), words_apart(b)); }
+    GNOMON_LANES ints odd_words(ints a, ints b) noexcept { return _mm256_unpackhi_epi64(words_apart(a), words_apart(b)); }
+    GNOMON_LANES ints even_lanes(ints a, ints b) noexcept { return _mm256_permute2x128_si256(a, b, 0x20); }
+    GNOMON_LANES ints odd_lanes(ints a, ints b) noexcept { return _mm256_permute2x128_si256(a, b, 0x31); }
+    GNOMON_LANES ints low_pairs32(ints a, ints b) noexcept { return _mm256_unpacklo_epi32(a, b); }
+    GNOMON_LANES ints high_pairs32(ints a, ints b) noexcept { return _mm256_unpackhi_epi32(a, b); }
+    template <int Shift> GNOMON_LANES ints join_words(ints a, ints b) noexcept {
+        return _mm256_blend_epi16(_mm256_srli_epi32(a, Shift), _mm256_slli_epi32(b, 16 - Shift), 0xAA);
+    }
     GNOMON_LANES ints add32(ints a, ints b) noexcept { return _mm256_add_epi32(a, b); }
     GNOMON_LANES ints subtract32(ints a, ints b) noexcept { return _mm256_sub_epi32(a, b); }
     template <typename Storage> GNOMON_LANES ints widen32(const Storage* from) noexcept {
@@ -183,6 +192,11 @@ struct avx2 {
     }
 
   private:
+    /// In each 16 bytes: words 0, 2, 4, 6, and 1, 3, 5, 7 behind them.
+    GNOMON_LANES ints words_apart(ints a) noexcept {
+        return _mm256_shuffle_epi8(
+            a, _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 4, 5, 8, 9, 12, 13, 2, 3, 6, 7, 10, 11, 14, 15)));
+    }
     /// Cut to the 24 bits of a float, the last one set if anything was lost: rounding that to a half rounds once.
     GNOMON_LANES doubles to_odd(doubles a) noexcept {
         const ints lost = _mm256_set1_epi64x((1 << 29) - 1), bits = _mm256_castpd_si256(a);

@@ -60,6 +60,14 @@ struct avx512 {
     GNOMON_LANES ints add_dot8(ints sum, ints weights, ints values) noexcept { return _mm512_dpbusd_epi32(sum, values, weights); }
     GNOMON_LANES ints even_words(ints a, ints b) noexcept { return _mm512_permutex2var_epi16(a, word_order(0), b); }
     GNOMON_LANES ints odd_words(ints a, ints b) noexcept { return _mm512_permutex2var_epi16(a, word_order(1), b); }
+    GNOMON_LANES ints even_lanes(ints a, ints b) noexcept { return _mm512_maskz_shuffle_i64x2(eight, a, b, 0x88); }
+    GNOMON_LANES ints odd_lanes(ints a, ints b) noexcept { return _mm512_maskz_shuffle_i64x2(eight, a, b, 0xDD); }
+    GNOMON_LANES ints low_pairs32(ints a, ints b) noexcept { return _mm512_maskz_unpacklo_epi32(all, a, b); }
+    GNOMON_LANES ints high_pairs32(ints a, ints b) noexcept { return _mm512_maskz_unpackhi_epi32(all, a, b); }
+    template <int Shift> GNOMON_LANES ints join_words(ints a, ints b) noexcept {
+        return chosen(_mm512_set1_epi32(0xFFFF), _mm512_maskz_srli_epi32(all, a, Shift),
+                      _mm512_maskz_slli_epi32(all, b, 16 - Shift));
+    }
     GNOMON_LANES ints add32(ints a, ints b) noexcept { return _mm512_add_epi32(a, b); }
     GNOMON_LANES ints subtract32(ints a, ints b) noexcept { return _mm512_sub_epi32(a, b); }
     template <typename Storage> GNOMON_LANES ints widen32(const Storage* from) noexcept {

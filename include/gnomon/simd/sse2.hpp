@@ -58,6 +58,18 @@ struct sse2 {
     template <int Bits> GNOMON_LANES ints shift_right32(ints a) noexcept { return _mm_srai_epi32(a, Bits); }
     GNOMON_LANES ints narrow32(ints a, ints b) noexcept { return _mm_packs_epi32(a, b); }
     GNOMON_LANES ints narrow16(ints a, ints b) noexcept { return _mm_packus_epi16(a, b); }
+    GNOMON_LANES ints even_words(ints a, ints b) noexcept {
+        return _mm_packs_epi32(_mm_srai_epi32(_mm_slli_epi32(a, 16), 16), _mm_srai_epi32(_mm_slli_epi32(b, 16), 16));
+    }
+    GNOMON_LANES ints odd_words(ints a, ints b) noexcept { return _mm_packs_epi32(_mm_srai_epi32(a, 16), _mm_srai_epi32(b, 16)); }
+    GNOMON_LANES ints even_lanes(ints a, ints) noexcept { return a; }
+    GNOMON_LANES ints odd_lanes(ints, ints b) noexcept { return b; }
+    GNOMON_LANES ints low_pairs32(ints a, ints b) noexcept { return _mm_unpacklo_epi32(a, b); }
+    GNOMON_LANES ints high_pairs32(ints a, ints b) noexcept { return _mm_unpackhi_epi32(a, b); }
+    template <int Shift> GNOMON_LANES ints join_words(ints a, ints b) noexcept {
+        return _mm_or_si128(_mm_and_si128(_mm_srli_epi32(a, Shift), _mm_set1_epi32(0xFFFF)),
+                            _mm_slli_epi32(_mm_srli_epi32(b, Shift), 16));
+    }
     GNOMON_LANES ints add32(ints a, ints b) noexcept { return _mm_add_epi32(a, b); }
     GNOMON_LANES ints subtract32(ints a, ints b) noexcept { return _mm_sub_epi32(a, b); }
     template <typename Storage> GNOMON_LANES ints widen32(const Storage* from) noexcept {
