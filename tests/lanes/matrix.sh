@@ -4,7 +4,7 @@
 # the lines that are equal. Its note is what tests/golden/canary.cpp finds that the compiler does to numbers, with the same flags.
 # tests/golden/geometry.cpp alone is compiled with -ffp-contract=off, and says why. Below the compilers come rows of another kind.
 golden=$root/tests/golden
-golden_parts=(texel facade filter receive geometry grid main)
+golden_parts=(texel facade filter receive geometry grid lanes main)
 
 # name | what it adds | packages | what this processor must have | compiler and flags | what runs the program
 toolchain_rows() {
