@@ -35,8 +35,9 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
         : run_(run), casters_({size.width, size.height}, Texel::clear()), soft_({size.width, size.height}, Texel::clear()),
           tiles_({size.width, size.height}, size.tile), filtered_(tiles_.tiles()), scratch_(size.width) {}
 
-    /// How `shadow` and `receive` decide; no false shadow unless you say otherwise.
-    rule decision{};
+    /// How `shadow` and `receive` decide; no false shadow unless you say otherwise. It knows how often the filter rounds.
+    rule decision{.caster = {.roundings = filter_roundings<Texel, Kernel>},
+                  .far_bound = {.roundings = filter_roundings<Texel, Kernel>}};
 
     [[nodiscard]] extent size() const noexcept { return casters_.size(); }
     /// Where shadows may lie, this frame.

@@ -10,51 +10,59 @@
 #include <array>
 #include <concepts>
 #include <cstring>
+#include <type_traits>
 
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
 /// Rows that are summed side by side, and bytes of a row that a strip takes.
-inline constexpr int rows_at_once = 4, strip_bytes = 2048;
+inline constexpr int rows_at_once = 4, strip_bytes = 4096;
 
-/// Any texel that is filtered channel by channel: sums in double, which are exact. (See filter/separable.hpp for the line's 36 bits.)
-template <typename Isa, kernel Kernel, texel_format Texel> struct wide_filter {
+/// Any texel that is filtered channel by channel, in doubles, whose sums are exact, or in floats. (See filter/separable.hpp.)
+template <typename Isa, kernel Kernel, texel_format Texel, typename Number> struct wide_filter {
+    using by = detail::sums<Texel, Kernel>;
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
-    using doubles = typename Isa::doubles;
-    using element = double;
+    using element = Number;
+    using numbers = decltype(Isa::repeat(Number{}));
 
-    static constexpr int step = Isa::double_lanes; ///< channels that are made at a time
-    static constexpr int strip = strip_bytes / static_cast<int>(sizeof(double)) / Texel::channels * Texel::channels;
+    static constexpr int step = Isa::bytes / static_cast<int>(sizeof(Number)); ///< channels that are made at a time
+    static constexpr int strip = strip_bytes / static_cast<int>(sizeof(Number)) / Texel::channels * Texel::channels;
     static constexpr int margin = Kernel::radius * Texel::channels;
     static constexpr int line_size = step + strip + 2 * margin + step + Texel::channels; ///< for one row, in elements
     static constexpr int taps = 2 * Kernel::radius + 1;
     [[nodiscard]] static constexpr int place(int i) noexcept { return i; }
 
     static constexpr auto weights = [] {
-        std::array<double, static_cast<std::size_t>(taps + 2 * rows_at_once)> w{};
-        for (int t = 0; t < taps; ++t) w[static_cast<std::size_t>(t + rows_at_once)] = Kernel::weights[static_cast<std::size_t>(t)];
+        std::array<Number, static_cast<std::size_t>(taps + 2 * rows_at_once)> w{};
+        for (int t = 0; t < taps; ++t) w[static_cast<std::size_t>(t + rows_at_once)] = by::template weight<Number>(t);
         return w;
     }();
+    GNOMON_LANES numbers codes(const storage* from) noexcept {
+        if constexpr (by::in_floats)
+            return Isa::template codes_of<channel_type, 1>(from, 0);
+        else
+            return Isa::template codes<channel_type>(from);
+    }
 
-    static void columns(const storage* const* rows, double* line, int count) noexcept {
+    static void columns(const storage* const* rows, Number* line, int count) noexcept {
         for (int at = 0; at < count; at += step) {
             const int i = lesser(at, count - step);
-            doubles sum[rows_at_once];
+            numbers sum[rows_at_once];
             GNOMON_UNROLL(4)
-            for (int j = 0; j < rows_at_once; ++j) sum[j] = Isa::repeat(0.0);
+            for (int j = 0; j < rows_at_once; ++j) sum[j] = Isa::repeat(Number{});
             GNOMON_UNROLL(16)
             for (int t = 0; t < taps + rows_at_once - 1; ++t) {
-                const doubles codes = Isa::template codes<channel_type>(rows[t] + i);
-                const double* w = weights.data() + rows_at_once + t;
+                const numbers values = codes(rows[t] + i);
+                const Number* w = weights.data() + rows_at_once + t;
                 GNOMON_UNROLL(4)
                 for (int j = 0; j < rows_at_once; ++j)
                     if (channel_type::whole_codes || (t >= j && t < taps + j)) // an infinity times no weight is no zero
-                        sum[j] = Isa::add_product(sum[j], codes, Isa::repeat(w[-j]));
+                        sum[j] = Isa::add_product(sum[j], values, Isa::repeat(w[-j]));
             }
             GNOMON_UNROLL(4)
             for (int j = 0; j < rows_at_once; ++j) {
-                if constexpr (!channel_type::whole_codes) { // detail::to_bits<36>
+                if constexpr (!channel_type::whole_codes && !by::in_floats) { // detail::to_bits<36>
                     constexpr std::uint64_t dropped = (1 << 17) - 1;
                     sum[j] = Isa::add_and_mask(sum[j], dropped / 2 + 1, ~dropped);
                 }
@@ -63,14 +71,16 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct wide_filter {
         }
     }
 
-    static void clear(double* line, int first, int last) noexcept {
-        for (int i = first; i < last; ++i)
-            line[i] = Kernel::total * static_cast<double>(channel_type::code(Texel::clear().stored[i % Texel::channels]));
+    static void clear(Number* line, int first, int last) noexcept {
+        for (int i = first; i < last; ++i) {
+            const auto code = static_cast<Number>(channel_type::code(Texel::clear().stored[i % Texel::channels]));
+            line[i] = static_cast<Number>(by::weights_of::total) / by::unit * code;
+        }
     }
 
-    GNOMON_LANES_VOID void row(const double* line, storage* to) noexcept {
-        constexpr double whole = static_cast<double>(Kernel::total) * static_cast<double>(Kernel::total);
-        doubles sum = Isa::repeat(0.0);
+    GNOMON_LANES_VOID void row(const Number* line, storage* to) noexcept {
+        constexpr auto whole = static_cast<Number>(by::whole);
+        numbers sum = Isa::repeat(Number{});
         GNOMON_UNROLL(16)
         for (int t = 0; t < taps; ++t)
             sum = Isa::add_product(sum, Isa::load(line + t * Texel::channels),
@@ -78,38 +88,25 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct wide_filter {
         if constexpr (channel_type::whole_codes) {
             // Halves upwards, then down. The quarter keeps what is whole from being rounded below itself: sum and whole are whole, and
             // a quarter of 1/whole is more than the product can be wrong by, for every total there is.
-            constexpr double half = static_cast<double>(static_cast<std::uint64_t>(whole) / 2) + 0.25;
+            constexpr double half = static_cast<double>(by::whole / 2) + 0.25;
             sum = Isa::multiply(Isa::add(sum, Isa::repeat(half)), Isa::repeat(1.0 / whole));
-        } else {
+        } else if constexpr (by::whole != 1.0) {
             sum = Isa::divide(sum, Isa::repeat(whole));
         }
         Isa::template store_codes<channel_type>(to, sum);
     }
 };
 
-/// A pair of bytes and a kernel of 8-bit weights: 16-bit sums of columns, exact in 8.8, then 32-bit sums of these. Pixels are taken
-/// less 128 and column sums less 2^15, for the products of processors are of one unsigned and one signed factor, or of two signed.
-template <typename Isa, kernel Kernel, texel_format Texel> struct byte_filter {
-    using storage = typename Texel::storage;
-    using ints = typename Isa::ints;
-    using element = std::int16_t;
-
-    static constexpr int step = Isa::bytes;
-    static constexpr int strip = strip_bytes;
-    static constexpr int margin = Kernel::radius * Texel::channels;
-    static constexpr int plane_size = (step + strip + 2 * margin + step + Texel::channels) / 2; ///< depths first, masks behind them
-    static constexpr int line_size = 2 * plane_size;
+/// A kernel's weights, each beside the next, in each 32 bits as the products of whole numbers take them; zero beyond both ends.
+template <kernel Kernel, int Total> struct weight_pairs {
     static constexpr int taps = 2 * Kernel::radius + 1;
-    [[nodiscard]] static constexpr int place(int i) noexcept { return i / 2; }
-
-    /// weight t beside weight t + 1, in each 32 bits; zero beyond both ends.
     template <int Bits>
-    static constexpr auto pairs = [] {
+    static constexpr auto all = [] {
         std::array<std::uint32_t, static_cast<std::size_t>(taps + 2 * rows_at_once)> p{};
         const auto weight = [](int t) {
             return t < 0 || t >= taps
                        ? 0u
-                       : static_cast<std::uint32_t>(Kernel::weights[static_cast<std::size_t>(t)] * (256 / Kernel::total));
+                       : static_cast<std::uint32_t>(Kernel::weights[static_cast<std::size_t>(t)] * (Total / Kernel::total));
         };
         for (int t = -rows_at_once; t < taps + rows_at_once; ++t) {
             const std::uint32_t pair = weight(t) | weight(t + 1) << Bits;
@@ -117,9 +114,31 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct byte_filter {
         }
         return p;
     }();
-    template <int Bits> GNOMON_LANES ints pair(int t) noexcept {
-        return Isa::repeat32(pairs<Bits>[static_cast<std::size_t>(t + rows_at_once)]);
+    /// The pair that begins with tap `t`.
+    template <int Bits> [[nodiscard]] static constexpr std::uint32_t at(int t) noexcept {
+        return all<Bits>[static_cast<std::size_t>(t + rows_at_once)];
     }
+};
+
+/// Do bytes go by whole numbers of 16 bits? Weights of eight bits do.
+template <kernel Kernel>
+inline constexpr bool in_eight_bits = Kernel::radius > 0 && Kernel::total <= 256 && 256 % Kernel::total == 0;
+
+/// A pair of bytes and a kernel of 8-bit weights: 16-bit sums of columns, exact in 8.8, then 32-bit sums of these. Pixels are taken
+/// less 128 and column sums less 2^15, for the products of processors are of one unsigned and one signed factor, or of two signed.
+template <typename Isa, kernel Kernel, texel_format Texel> struct byte_filter {
+    using weights = weight_pairs<typename detail::sums<Texel, Kernel>::weights_of, 256>;
+    using storage = typename Texel::storage;
+    using ints = typename Isa::ints;
+    using element = std::int16_t;
+
+    static constexpr int step = Isa::bytes;
+    static constexpr int strip = strip_bytes / 2;
+    static constexpr int margin = Kernel::radius * Texel::channels;
+    static constexpr int plane_size = (step + strip + 2 * margin + step + Texel::channels) / 2; ///< depths first, masks behind them
+    static constexpr int line_size = 2 * plane_size;
+    static constexpr int taps = 2 * Kernel::radius + 1;
+    [[nodiscard]] static constexpr int place(int i) noexcept { return i / 2; }
 
     static void columns(const storage* const* rows, std::int16_t* line, int count) noexcept {
         const ints sign = Isa::repeat32(0x80808080u);
@@ -135,7 +154,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct byte_filter {
                 const ints depths = Isa::even_pairs8(above, below), masks = Isa::odd_pairs8(above, below);
                 GNOMON_UNROLL(4)
                 for (int j = 0; j < rows_at_once; ++j) {
-                    const ints w = pair<8>(t - j);
+                    const ints w = Isa::repeat32(weights::template at<8>(t - j));
                     depth[j] = Isa::add16(depth[j], Isa::multiply_pairs8(w, depths));
                     mask[j] = Isa::add16(mask[j], Isa::multiply_pairs8(w, masks));
                     Isa::settle(depth[j]);
@@ -168,7 +187,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct byte_filter {
             Isa::settle(masks);
             GNOMON_UNROLL(2)
             for (int odd = 0; odd < 2; ++odd) { // an odd one finds its taps in the same pairs, one place later
-                const ints w = pair<16>(t - odd);
+                const ints w = Isa::repeat32(weights::template at<16>(t - odd));
                 depth[odd] = Isa::add_dot16(depth[odd], w, depths);
                 mask[odd] = Isa::add_dot16(mask[odd], w, masks);
                 Isa::settle(depth[odd]);
@@ -179,11 +198,122 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct byte_filter {
     }
 };
 
-/// What serves a texel and a kernel best. Both give the same bits where both can.
+/// Whole codes of any number of channels by whole numbers. Bytes and weights of eight bits: column sums of 16 bits, exact, and one
+/// rounding, as byte_filter; 16-bit codes and weights of 15 bits: sums of 32 bits, rounded to 16 after each pass. Codes and column
+/// sums are taken less half their range.
+template <typename Isa, kernel Kernel, texel_format Texel> struct word_filter {
+    static constexpr bool bytes = sizeof(typename Texel::storage) == 1;
+    static constexpr int weight_bits = bytes ? 8 : 15;
+    using weights = weight_pairs<typename detail::sums<Texel, Kernel>::weights_of, 1 << weight_bits>;
+    using storage = typename Texel::storage;
+    using ints = typename Isa::ints;
+    using element = std::int16_t;
+
+    static constexpr int step = Isa::bytes / static_cast<int>(sizeof(storage));
+    static constexpr int words = Isa::bytes / 2; ///< elements of the line in a register
+    static constexpr int strip = strip_bytes / 2 / Texel::channels * Texel::channels;
+    static constexpr int margin = Kernel::radius * Texel::channels;
+    static constexpr int line_size = step + strip + 2 * margin + step + Texel::channels;
+    static constexpr int taps = 2 * Kernel::radius + 1;
+    [[nodiscard]] static constexpr int place(int i) noexcept { return i; }
+
+    struct pair_of_sums {
+        ints low, high;
+    };
+
+    static void columns(const storage* const* rows, std::int16_t* line, int count) noexcept {
+        const ints sign = Isa::repeat32(bytes ? 0x80808080u : 0x80008000u), start = Isa::repeat32(bytes ? 0 : 1u << 14);
+        for (int at = 0; at < count; at += step) {
+            const int i = lesser(at, count - step);
+            pair_of_sums sum[rows_at_once];
+            GNOMON_UNROLL(4)
+            for (int j = 0; j < rows_at_once; ++j) sum[j] = {start, start};
+            GNOMON_UNROLL(1)
+            for (int t = 0; t < taps + rows_at_once - 1; t += 2) {
+                const ints above = Isa::exclusive_or(Isa::load(rows[t] + i), sign),
+                           below = Isa::exclusive_or(Isa::load(rows[t + 1] + i), sign);
+                const pair_of_sums values = pairs_of(above, below);
+                GNOMON_UNROLL(4)
+                for (int j = 0; j < rows_at_once; ++j) {
+                    const ints w = Isa::repeat32(weights::template at<bytes ? 8 : 16>(t - j));
+                    sum[j] = {add(sum[j].low, w, values.low), add(sum[j].high, w, values.high)};
+                    Isa::settle(sum[j].low);
+                    Isa::settle(sum[j].high);
+                }
+            }
+            GNOMON_UNROLL(4)
+            for (int j = 0; j < rows_at_once; ++j) {
+                std::int16_t* const to = line + j * line_size + i;
+                if constexpr (bytes) {
+                    Isa::store(to, Isa::first_half(sum[j].low, sum[j].high));
+                    Isa::store(to + words, Isa::second_half(sum[j].low, sum[j].high));
+                } else {
+                    Isa::store(to, rounded<15>(sum[j]));
+                }
+            }
+        }
+    }
+
+    static void clear(std::int16_t* line, int first, int last) noexcept {
+        for (int i = first; i < last; ++i) {
+            const int code = Texel::clear().stored[i % Texel::channels];
+            line[i] = static_cast<std::int16_t>((bytes ? code * 256 : code) - 32768);
+        }
+    }
+
+    GNOMON_LANES_VOID void row(const std::int16_t* line, storage* to) noexcept {
+        if constexpr (bytes)
+            Isa::store(to, Isa::narrow16(rounded<16>(sum_of(line)), rounded<16>(sum_of(line + words))));
+        else
+            Isa::store(to, Isa::exclusive_or(rounded<15>(sum_of(line)), Isa::repeat32(0x80008000u)));
+    }
+
+  private:
+    GNOMON_LANES pair_of_sums pairs_of(ints a, ints b) noexcept {
+        if constexpr (bytes)
+            return {Isa::low_pairs8(a, b), Isa::high_pairs8(a, b)};
+        else
+            return {Isa::low_pairs16(a, b), Isa::high_pairs16(a, b)};
+    }
+    GNOMON_LANES ints add(ints sum, ints w, ints values) noexcept {
+        if constexpr (bytes)
+            return Isa::add16(sum, Isa::multiply_pairs8(w, values));
+        else
+            return Isa::add_dot16(sum, w, values);
+    }
+    template <int Bits> GNOMON_LANES ints rounded(pair_of_sums sum) noexcept {
+        return Isa::narrow32(Isa::template shift_right32<Bits>(sum.low), Isa::template shift_right32<Bits>(sum.high));
+    }
+    /// A register's worth of the line, with what lies around it.
+    GNOMON_LANES pair_of_sums sum_of(const std::int16_t* line) noexcept {
+        const ints start = Isa::repeat32(bytes ? (1u << 23) + (1u << 15) : 1u << 14); // 256 * 2^15 that the columns lack; a half
+        pair_of_sums sum = {start, start};
+        GNOMON_UNROLL(2)
+        for (int t = 0; t < taps; t += 2) {
+            const ints here = Isa::load(line + t * Texel::channels), next = Isa::load(line + (t + 1) * Texel::channels);
+            const ints w = Isa::repeat32(weights::template at<16>(t));
+            sum = {Isa::add_dot16(sum.low, w, Isa::low_pairs16(here, next)),
+                   Isa::add_dot16(sum.high, w, Isa::high_pairs16(here, next))};
+            Isa::settle(sum.low);
+            Isa::settle(sum.high);
+        }
+        return sum;
+    }
+};
+
+/// What serves a texel and a kernel best. All give the same bits where several can.
+template <typename Isa, kernel Kernel, texel_format Texel> consteval auto choose_filter() {
+    using by = detail::sums<Texel, Kernel>;
+    constexpr bool bytes = std::same_as<typename Texel::channel_type, unorm8> && in_eight_bits<typename by::weights_of>;
+    if constexpr (bytes && Texel::channels == 2)
+        return std::type_identity<byte_filter<Isa, Kernel, Texel>>{};
+    else if constexpr (bytes || by::stored_between)
+        return std::type_identity<word_filter<Isa, Kernel, Texel>>{};
+    else
+        return std::type_identity<wide_filter<Isa, Kernel, Texel, std::conditional_t<by::in_floats, float, double>>>{};
+}
 template <typename Isa, kernel Kernel, texel_format Texel>
-using filter_of = std::conditional_t<std::same_as<typename Texel::channel_type, unorm8> && Texel::channels == 2 &&
-                                         (Kernel::radius > 0) && (Kernel::total <= 256) && 256 % Kernel::total == 0,
-                                     byte_filter<Isa, Kernel, Texel>, wide_filter<Isa, Kernel, Texel>>;
+using filter_of = typename decltype(choose_filter<Isa, Kernel, Texel>())::type;
 
 /// A row of texels as a row of channels: the object is the memory.
 template <texel_format Texel> const typename Texel::storage* channels_of(const Texel* row) noexcept {

@@ -75,6 +75,27 @@ template <int Bytes> struct emulated {
         const ints* const from[4] = {&a, &b, &c, &d};
         return each<std::uint8_t>([&](int i) { return at<std::uint32_t>(*from[i % 4], i / 4) >> 16; });
     }
+    /// In each 16 bytes: the lower eight bytes of `a` in turn with those of `b`; and the upper eight.
+    [[nodiscard]] static ints low_pairs8(ints a, ints b) noexcept { return paired<std::uint8_t>(a, b, 0); }
+    [[nodiscard]] static ints high_pairs8(ints a, ints b) noexcept { return paired<std::uint8_t>(a, b, 8); }
+    /// The same of 16 bits.
+    [[nodiscard]] static ints low_pairs16(ints a, ints b) noexcept { return paired<std::uint16_t>(a, b, 0); }
+    [[nodiscard]] static ints high_pairs16(ints a, ints b) noexcept { return paired<std::uint16_t>(a, b, 8); }
+    /// 16 bytes of `low` in turn with 16 of `high`: what low_pairs and high_pairs made, in order again, in two registers.
+    [[nodiscard]] static ints first_half(ints low, ints high) noexcept { return in_turn(low, high, 0); }
+    [[nodiscard]] static ints second_half(ints low, ints high) noexcept { return in_turn(low, high, Bytes); }
+    /// Downwards.
+    template <int Bits> [[nodiscard]] static ints shift_right32(ints a) noexcept {
+        return each<std::int32_t>([&](int i) { return at<std::int32_t>(a, i) >> Bits; });
+    }
+    /// In each 16 bytes: four signed 32 bits of `a`, then four of `b`, in 16. \pre they fit
+    [[nodiscard]] static ints narrow32(ints a, ints b) noexcept {
+        return each<std::int16_t>([&](int i) { return at<std::int32_t>(i % 8 < 4 ? a : b, i / 8 * 4 + i % 4); });
+    }
+    /// The 16 bits of `a`, then those of `b`, in eight. \pre they fit
+    [[nodiscard]] static ints narrow16(ints a, ints b) noexcept {
+        return each<std::uint8_t>([&](int i) { return at<std::uint16_t>(i < Bytes / 2 ? a : b, i % (Bytes / 2)); });
+    }
     /// Nothing. Where a compiler would sum products as a tree, which takes more registers than there are, it keeps their order.
     static void settle(ints&) noexcept {}
 
@@ -88,6 +109,18 @@ template <int Bytes> struct emulated {
     }
     [[nodiscard]] static floats subtract(floats a, floats b) noexcept {
         return of_floats<floats>([&](int i) { return a.lane[i] - b.lane[i]; });
+    }
+    [[nodiscard]] static floats multiply(floats a, floats b) noexcept {
+        return of_floats<floats>([&](int i) { return a.lane[i] * b.lane[i]; });
+    }
+    [[nodiscard]] static floats divide(floats a, floats b) noexcept {
+        return of_floats<floats>([&](int i) { return a.lane[i] / b.lane[i]; });
+    }
+    /// sum + a * b, the product rounded and then the sum, whatever a compiler may fuse.
+    [[nodiscard]] static floats add_product(floats sum, floats a, floats b) noexcept {
+        return of_floats<floats>([&](int i) {
+            return sum.lane[i] + static_cast<float>(static_cast<double>(a.lane[i]) * static_cast<double>(b.lane[i]));
+        });
     }
     /// a / b, correctly rounded. \pre 1 / b is the float nearest to it, and `a` a whole number in [0, b], b = 255 or 65535
     [[nodiscard]] static floats fraction(floats a, float b) noexcept {
@@ -146,6 +179,10 @@ template <int Bytes> struct emulated {
     template <channel Channel> [[nodiscard]] static doubles codes(const typename Channel::storage* from) noexcept {
         return each([&](int i) { return static_cast<double>(Channel::code(from[i])); });
     }
+    /// Stores floats in half16 or float32, rounded once; of a NaN only that it is one.
+    template <channel Channel> static void store_codes(typename Channel::storage* to, floats a) noexcept {
+        for (int i = 0; i < float_lanes; ++i) to[i] = Channel::store(static_cast<double>(a.lane[i]));
+    }
     /// Stores numbers rounded once: whole codes downwards, \pre within the code's range; half and float as `Channel::store`, but for
     /// what is left of a NaN, which is any NaN.
     template <channel Channel> static void store_codes(typename Channel::storage* to, doubles a) noexcept {
@@ -173,6 +210,17 @@ template <int Bytes> struct emulated {
             std::memcpy(a.byte + static_cast<std::size_t>(i) * sizeof(T), &v, sizeof v);
         }
         return a;
+    }
+    /// Eight bytes of `a` in turn with eight of `b`, of each 16 those from `first` on.
+    template <typename T> [[nodiscard]] static ints paired(ints a, ints b, int first) noexcept {
+        constexpr int size = static_cast<int>(sizeof(T)), lane = 16 / size;
+        return each<T>([&](int i) { return at<T>(i % 2 == 0 ? a : b, i / lane * lane + first / size + i % lane / 2); });
+    }
+    [[nodiscard]] static ints in_turn(ints low, ints high, int first) noexcept {
+        return each<std::uint8_t>([&](int i) {
+            const int from = first + i;
+            return (from / 16 % 2 == 0 ? low : high).byte[from / 32 * 16 + from % 16];
+        });
     }
     template <typename T, typename F> [[nodiscard]] static T of_floats(F&& f) noexcept {
         T a;

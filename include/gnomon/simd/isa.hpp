@@ -35,12 +35,24 @@ concept simd_isa =
         { Isa::add16(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::add_dot16(i, i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::interleave_byte2(i, i, i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::low_pairs8(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::high_pairs8(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::low_pairs16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::high_pairs16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::first_half(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::second_half(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_right32<16>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::narrow32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::narrow16(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::settle(i) };
         { Isa::load(static_cast<const float*>(numbers)) } -> std::same_as<typename Isa::floats>;
         { Isa::store(numbers, f) };
         { Isa::repeat(number) } -> std::same_as<typename Isa::floats>;
         { Isa::add(f, f) } -> std::same_as<typename Isa::floats>;
         { Isa::subtract(f, f) } -> std::same_as<typename Isa::floats>;
+        { Isa::multiply(f, f) } -> std::same_as<typename Isa::floats>;
+        { Isa::divide(f, f) } -> std::same_as<typename Isa::floats>;
+        { Isa::add_product(f, f, f) } -> std::same_as<typename Isa::floats>;
         { Isa::fraction(f, number) } -> std::same_as<typename Isa::floats>;
         { Isa::greater(f, f) } -> std::same_as<typename Isa::masks>;
         { Isa::not_greater(f, f) } -> std::same_as<typename Isa::masks>;
@@ -57,6 +69,7 @@ concept simd_isa =
         { Isa::add_product(d, d, d) } -> std::same_as<typename Isa::doubles>;
         { Isa::add_and_mask(d, bits, bits) } -> std::same_as<typename Isa::doubles>;
         { Isa::template codes<unorm8>(codes) } -> std::same_as<typename Isa::doubles>;
+        { Isa::template store_codes<float32>(numbers, f) };
         { Isa::template store_codes<unorm8>(codes, d) };
     };
 
