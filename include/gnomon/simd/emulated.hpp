@@ -35,6 +35,11 @@ template <int Bytes> struct emulated {
 
     [[nodiscard]] static ints load(const void* from) noexcept { return copied<ints>(from); }
     static void store(void* to, ints a) noexcept { std::memcpy(to, &a, sizeof a); }
+    /// Stores past the caches, where there is such a way; what is stored so others see after a fence. \pre aligned to a register
+    static void stream(void* to, ints a) noexcept { store(to, a); }
+    static void fence() noexcept {}
+    /// Calls for memory that will soon be read; any address will do.
+    static void prefetch(const void*) noexcept {}
     /// The same 32 bits again and again.
     [[nodiscard]] static ints repeat32(std::uint32_t v) noexcept {
         return each<std::uint32_t>([v](int) { return v; });
@@ -95,6 +100,56 @@ template <int Bytes> struct emulated {
     /// The 16 bits of `a`, then those of `b`, in eight. \pre they fit
     [[nodiscard]] static ints narrow16(ints a, ints b) noexcept {
         return each<std::uint8_t>([&](int i) { return at<std::uint16_t>(i < Bytes / 2 ? a : b, i % (Bytes / 2)); });
+    }
+    /// 32 bits: `sum`, and four neighbours' products, signed weight times unsigned value, modulo 2^32.
+    [[nodiscard]] static ints add_dot8(ints sum, ints weights, ints values) noexcept {
+        return each<std::uint32_t>([&](int i) {
+            std::uint32_t total = at<std::uint32_t>(sum, i);
+            for (int k = 4 * i; k < 4 * i + 4; ++k)
+                total += static_cast<std::uint32_t>(static_cast<std::int8_t>(weights.byte[k]) * values.byte[k]);
+            return total;
+        });
+    }
+    /// In each 16 bytes, and in order over these: 16 bits 0, 2, 4 and 6 of `a`, then those of `b`; and 1, 3, 5 and 7. Of registers
+    /// that hold pairs, 16 bytes of either in turn, the first numbers and the second ones.
+    [[nodiscard]] static ints even_words(ints a, ints b) noexcept { return words(a, b, 0); }
+    [[nodiscard]] static ints odd_words(ints a, ints b) noexcept { return words(a, b, 1); }
+    /// Of each two groups of 16 bytes the first: of `a`, then of `b`; and the second. (16 bytes: `a`, and `b`.)
+    [[nodiscard]] static ints even_lanes(ints a, ints b) noexcept { return lanes(a, b, 0); }
+    [[nodiscard]] static ints odd_lanes(ints a, ints b) noexcept { return lanes(a, b, 16); }
+    /// In each 16 bytes: the lower two 32 bits of `a` in turn with those of `b`; and the upper two.
+    [[nodiscard]] static ints low_pairs32(ints a, ints b) noexcept { return paired<std::uint32_t>(a, b, 0); }
+    [[nodiscard]] static ints high_pairs32(ints a, ints b) noexcept { return paired<std::uint32_t>(a, b, 8); }
+    /// 32 bits: 16 from bit `Shift` of `a` on, and 16 of `b` above them. Shift < 16
+    template <int Shift> [[nodiscard]] static ints join_words(ints a, ints b) noexcept {
+        return each<std::uint32_t>(
+            [&](int i) { return (at<std::uint32_t>(a, i) >> Shift & 0xFFFF) | (at<std::uint32_t>(b, i) >> Shift & 0xFFFF) << 16; });
+    }
+    [[nodiscard]] static ints add32(ints a, ints b) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) + at<std::uint32_t>(b, i); });
+    }
+    [[nodiscard]] static ints subtract32(ints a, ints b) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) - at<std::uint32_t>(b, i); });
+    }
+    /// Bytes or 16 bits, one to each 32 bits; and back, the lowest of each.
+    template <typename Storage> [[nodiscard]] static ints widen32(const Storage* from) noexcept {
+        return each<std::uint32_t>([&](int i) { return from[i]; });
+    }
+    template <typename Storage> static void store_low(Storage* to, ints a) noexcept {
+        for (int i = 0; i < float_lanes; ++i) to[i] = static_cast<Storage>(at<std::uint32_t>(a, i));
+    }
+    /// Each 32 bits so many places on, zeros before them.
+    template <int Places> [[nodiscard]] static ints shift_up32(ints a) noexcept {
+        return each<std::uint32_t>([&](int i) { return i < Places ? 0u : at<std::uint32_t>(a, i - Places); });
+    }
+    /// The last `Count` of 32 bits, again and again from the first place on.
+    template <int Count> [[nodiscard]] static ints repeat_last32(ints a) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, float_lanes - Count + i % Count); });
+    }
+    /// a * b / 2^Shift, unsigned, rounded down. \pre it fits, and 32 <= Shift < 64
+    template <int Shift> [[nodiscard]] static ints multiply_shift32(ints a, ints b) noexcept {
+        return each<std::uint32_t>(
+            [&](int i) { return std::uint64_t{at<std::uint32_t>(a, i)} * at<std::uint32_t>(b, i) >> Shift; });
     }
     /// Nothing. Where a compiler would sum products as a tree, which takes more registers than there are, it keeps their order.
     static void settle(ints&) noexcept {}
@@ -217,6 +272,15 @@ template <int Bytes> struct emulated {
     template <typename T> [[nodiscard]] static ints paired(ints a, ints b, int first) noexcept {
         constexpr int size = static_cast<int>(sizeof(T)), lane = 16 / size;
         return each<T>([&](int i) { return at<T>(i % 2 == 0 ? a : b, i / lane * lane + first / size + i % lane / 2); });
+    }
+    [[nodiscard]] static ints words(ints a, ints b, int odd) noexcept {
+        return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(i % 8 < 4 ? a : b, i / 8 * 8 + i % 4 * 2 + odd); });
+    }
+    [[nodiscard]] static ints lanes(ints a, ints b, int first) noexcept {
+        return each<std::uint8_t>([&](int i) {
+            const int from = (i / 16 * 32 + first + i % 16);
+            return (from < Bytes ? a : b).byte[from % Bytes];
+        });
     }
     [[nodiscard]] static ints in_turn(ints low, ints high, int first) noexcept {
         return each<std::uint8_t>([&](int i) {

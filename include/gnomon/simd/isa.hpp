@@ -29,6 +29,9 @@ concept simd_isa =
         requires std::same_as<std::remove_cv_t<decltype(Isa::double_lanes)>, int>;
         { Isa::load(memory) } -> std::same_as<typename Isa::ints>;
         { Isa::store(memory, i) };
+        { Isa::stream(memory, i) };
+        { Isa::fence() };
+        { Isa::prefetch(static_cast<const void*>(memory)) };
         { Isa::repeat32(std::uint32_t{}) } -> std::same_as<typename Isa::ints>;
         { Isa::exclusive_or(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::even_pairs8(i, i) } -> std::same_as<typename Isa::ints>;
@@ -46,6 +49,20 @@ concept simd_isa =
         { Isa::template shift_right32<16>(i) } -> std::same_as<typename Isa::ints>;
         { Isa::narrow32(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::narrow16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::even_words(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::odd_words(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::even_lanes(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::odd_lanes(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::low_pairs32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::high_pairs32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template join_words<15>(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::add32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::subtract32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::widen32(static_cast<const std::uint8_t*>(codes)) } -> std::same_as<typename Isa::ints>;
+        { Isa::store_low(codes, i) };
+        { Isa::template shift_up32<2>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template repeat_last32<2>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template multiply_shift32<32>(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::settle(i) };
         { Isa::load(static_cast<const float*>(numbers)) } -> std::same_as<typename Isa::floats>;
         { Isa::store(numbers, f) };
@@ -74,6 +91,12 @@ concept simd_isa =
         { Isa::template store_codes<float32>(numbers, f) };
         { Isa::template store_codes<unorm8>(codes, d) };
     };
+
+/// Lanes that sum four products of bytes at once. Optional: filters of bytes are quicker by them.
+template <typename Isa>
+concept sums_quads = simd_isa<Isa> && requires(typename Isa::ints i) {
+    { Isa::add_dot8(i, i, i) } -> std::same_as<typename Isa::ints>;
+};
 
 /// Which lanes a processor has: of x86 each level has those below it, elsewhere there is one.
 enum class cpu_level { portable, wasm128, neon, sse2, avx2, avx512 };

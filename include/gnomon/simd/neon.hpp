@@ -23,6 +23,9 @@ struct neon {
 
     GNOMON_LANES ints load(const void* from) noexcept { return vld1q_u8(static_cast<const std::uint8_t*>(from)); }
     GNOMON_LANES_VOID void store(void* to, ints a) noexcept { vst1q_u8(static_cast<std::uint8_t*>(to), a); }
+    GNOMON_LANES_VOID void stream(void* to, ints a) noexcept { store(to, a); }
+    GNOMON_LANES_VOID void fence() noexcept {}
+    GNOMON_LANES_VOID void prefetch(const void* from) noexcept { __builtin_prefetch(from); }
     GNOMON_LANES ints repeat32(std::uint32_t v) noexcept { return bytes_of(vdupq_n_u32(v)); }
     GNOMON_LANES ints exclusive_or(ints a, ints b) noexcept { return veorq_u8(a, b); }
 
@@ -52,8 +55,47 @@ struct neon {
     GNOMON_LANES ints narrow32(ints a, ints b) noexcept { return bytes_of(vuzp1q_s16(words(a), words(b))); }
     GNOMON_LANES ints narrow16(ints a, ints b) noexcept { return vuzp1q_u8(a, b); }
     GNOMON_LANES ints interleave_byte2(ints a, ints b, ints c, ints d) noexcept {
-        const uint32x4_t ab = vsliq_n_u32(third_byte(a), third_byte(b), 8);
-        return bytes_of(vsliq_n_u32(vsliq_n_u32(ab, third_byte(c), 16), third_byte(d), 24));
+        const uint32x4_t ab = vsliq_n_u32(lowered<16>(a), lowered<16>(b), 8);
+        return bytes_of(vsliq_n_u32(vsliq_n_u32(ab, lowered<16>(c), 16), lowered<16>(d), 24));
+    }
+    GNOMON_LANES ints even_words(ints a, ints b) noexcept { return bytes_of(vuzp1q_s16(words(a), words(b))); }
+    GNOMON_LANES ints odd_words(ints a, ints b) noexcept { return bytes_of(vuzp2q_s16(words(a), words(b))); }
+    GNOMON_LANES ints even_lanes(ints a, ints) noexcept { return a; }
+    GNOMON_LANES ints odd_lanes(ints, ints b) noexcept { return b; }
+    GNOMON_LANES ints low_pairs32(ints a, ints b) noexcept { return bytes_of(vzip1q_u32(whole(a), whole(b))); }
+    GNOMON_LANES ints high_pairs32(ints a, ints b) noexcept { return bytes_of(vzip2q_u32(whole(a), whole(b))); }
+    template <int Shift> GNOMON_LANES ints join_words(ints a, ints b) noexcept {
+        return bytes_of(vsliq_n_u32(lowered<Shift>(a), lowered<Shift>(b), 16));
+    }
+    GNOMON_LANES ints add32(ints a, ints b) noexcept { return bytes_of(vaddq_u32(whole(a), whole(b))); }
+    GNOMON_LANES ints subtract32(ints a, ints b) noexcept { return bytes_of(vsubq_u32(whole(a), whole(b))); }
+    template <typename Storage> GNOMON_LANES ints widen32(const Storage* from) noexcept {
+        if constexpr (sizeof(Storage) == 1) {
+            std::uint32_t four;
+            std::memcpy(&four, from, sizeof four);
+            return bytes_of(vmovl_u16(vget_low_u16(vmovl_u8(vreinterpret_u8_u32(vdup_n_u32(four))))));
+        } else {
+            return bytes_of(vmovl_u16(vld1_u16(from)));
+        }
+    }
+    template <typename Storage> GNOMON_LANES_VOID void store_low(Storage* to, ints a) noexcept {
+        const uint16x4_t low = vmovn_u32(whole(a));
+        if constexpr (sizeof(Storage) == 1) {
+            const std::uint32_t four = vget_lane_u32(vreinterpret_u32_u8(vmovn_u16(vcombine_u16(low, low))), 0);
+            std::memcpy(to, &four, sizeof four);
+        } else {
+            vst1_u16(to, low);
+        }
+    }
+    template <int Places> GNOMON_LANES ints shift_up32(ints a) noexcept { return vextq_u8(vdupq_n_u8(0), a, 16 - 4 * Places); }
+    template <int Count> GNOMON_LANES ints repeat_last32(ints a) noexcept {
+        constexpr auto from = [](int i) { return 4 - Count + i % Count; };
+        return bytes_of(__builtin_shufflevector(whole(a), whole(a), from(0), from(1), from(2), from(3)));
+    }
+    template <int Shift> GNOMON_LANES ints multiply_shift32(ints a, ints b) noexcept {
+        const uint64x2_t low = vmull_u32(vget_low_u32(whole(a)), vget_low_u32(whole(b))), high = vmull_high_u32(whole(a), whole(b));
+        return bytes_of(
+            vuzp1q_u32(vreinterpretq_u32_u64(vshrq_n_u64(low, Shift)), vreinterpretq_u32_u64(vshrq_n_u64(high, Shift))));
     }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
@@ -128,9 +170,9 @@ struct neon {
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, doubles a) noexcept {
         if constexpr (Channel::whole_codes) {
-            const uint64x2_t whole = vcvtq_u64_f64(a);
-            to[0] = static_cast<typename Channel::storage>(vgetq_lane_u64(whole, 0));
-            to[1] = static_cast<typename Channel::storage>(vgetq_lane_u64(whole, 1));
+            const uint64x2_t code = vcvtq_u64_f64(a);
+            to[0] = static_cast<typename Channel::storage>(vgetq_lane_u64(code, 0));
+            to[1] = static_cast<typename Channel::storage>(vgetq_lane_u64(code, 1));
         } else if constexpr (std::same_as<Channel, half16>) { // to odd and then to nearest rounds once
             const float32x2_t odd = vcvtx_f32_f64(a);
             const std::uint32_t two = vget_lane_u32(vreinterpret_u32_f16(vcvt_f16_f32(vcombine_f32(odd, odd))), 0);
@@ -146,7 +188,13 @@ struct neon {
     GNOMON_LANES ints bytes_of(int32x4_t a) noexcept { return vreinterpretq_u8_s32(a); }
     GNOMON_LANES ints bytes_of(uint32x4_t a) noexcept { return vreinterpretq_u8_u32(a); }
     GNOMON_LANES int16x8_t words(ints a) noexcept { return vreinterpretq_s16_u8(a); }
-    GNOMON_LANES uint32x4_t third_byte(ints a) noexcept { return vshrq_n_u32(vreinterpretq_u32_u8(a), 16); }
+    GNOMON_LANES uint32x4_t whole(ints a) noexcept { return vreinterpretq_u32_u8(a); }
+    template <int Shift> GNOMON_LANES uint32x4_t lowered(ints a) noexcept {
+        if constexpr (Shift == 0)
+            return whole(a);
+        else
+            return vshrq_n_u32(whole(a), Shift);
+    }
     GNOMON_LANES floats number(uint16x4_t a) noexcept { return vcvtq_f32_u32(vmovl_u16(a)); }
 };
 

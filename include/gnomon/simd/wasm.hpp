@@ -22,6 +22,9 @@ struct wasm128 {
 
     GNOMON_LANES ints load(const void* from) noexcept { return wasm_v128_load(from); }
     GNOMON_LANES_VOID void store(void* to, ints a) noexcept { wasm_v128_store(to, a); }
+    GNOMON_LANES_VOID void stream(void* to, ints a) noexcept { store(to, a); }
+    GNOMON_LANES_VOID void fence() noexcept {}
+    GNOMON_LANES_VOID void prefetch(const void*) noexcept {}
     GNOMON_LANES ints repeat32(std::uint32_t v) noexcept { return wasm_u32x4_splat(v); }
     GNOMON_LANES ints exclusive_or(ints a, ints b) noexcept { return a ^ b; }
 
@@ -56,6 +59,40 @@ struct wasm128 {
         const ints ab = wasm_i8x16_shuffle(a, b, 2, 18, 0, 0, 6, 22, 0, 0, 10, 26, 0, 0, 14, 30, 0, 0);
         const ints cd = wasm_i8x16_shuffle(c, d, 0, 0, 2, 18, 0, 0, 6, 22, 0, 0, 10, 26, 0, 0, 14, 30);
         return wasm_i16x8_shuffle(ab, cd, 0, 9, 2, 11, 4, 13, 6, 15);
+    }
+    GNOMON_LANES ints even_words(ints a, ints b) noexcept { return wasm_i16x8_shuffle(a, b, 0, 2, 4, 6, 8, 10, 12, 14); }
+    GNOMON_LANES ints odd_words(ints a, ints b) noexcept { return wasm_i16x8_shuffle(a, b, 1, 3, 5, 7, 9, 11, 13, 15); }
+    GNOMON_LANES ints even_lanes(ints a, ints) noexcept { return a; }
+    GNOMON_LANES ints odd_lanes(ints, ints b) noexcept { return b; }
+    GNOMON_LANES ints low_pairs32(ints a, ints b) noexcept { return wasm_i32x4_shuffle(a, b, 0, 4, 1, 5); }
+    GNOMON_LANES ints high_pairs32(ints a, ints b) noexcept { return wasm_i32x4_shuffle(a, b, 2, 6, 3, 7); }
+    template <int Shift> GNOMON_LANES ints join_words(ints a, ints b) noexcept {
+        return (wasm_u32x4_shr(a, Shift) & wasm_u32x4_splat(0xFFFF)) | wasm_i32x4_shl(wasm_u32x4_shr(b, Shift), 16);
+    }
+    GNOMON_LANES ints add32(ints a, ints b) noexcept { return wasm_i32x4_add(a, b); }
+    GNOMON_LANES ints subtract32(ints a, ints b) noexcept { return wasm_i32x4_sub(a, b); }
+    template <typename Storage> GNOMON_LANES ints widen32(const Storage* from) noexcept {
+        if constexpr (sizeof(Storage) == 1)
+            return wasm_u32x4_extend_low_u16x8(wasm_u16x8_extend_low_u8x16(wasm_v128_load32_zero(from)));
+        else
+            return wasm_u32x4_extend_low_u16x8(wasm_v128_load64_zero(from));
+    }
+    template <typename Storage> GNOMON_LANES_VOID void store_low(Storage* to, ints a) noexcept {
+        if constexpr (sizeof(Storage) == 1)
+            wasm_v128_store32_lane(to, wasm_i8x16_shuffle(a, a, 0, 4, 8, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0), 0);
+        else
+            wasm_v128_store64_lane(to, even_words(a, a), 0);
+    }
+    template <int Places> GNOMON_LANES ints shift_up32(ints a) noexcept {
+        return wasm_i32x4_shuffle(repeat32(0), a, 4 - Places, 5 - Places, 6 - Places, 7 - Places);
+    }
+    template <int Count> GNOMON_LANES ints repeat_last32(ints a) noexcept {
+        constexpr auto from = [](int i) { return 4 - Count + i % Count; };
+        return wasm_i32x4_shuffle(a, a, from(0), from(1), from(2), from(3));
+    }
+    template <int Shift> GNOMON_LANES ints multiply_shift32(ints a, ints b) noexcept {
+        const ints low = wasm_u64x2_shr(wasm_u64x2_extmul_low_u32x4(a, b), Shift);
+        return wasm_i32x4_shuffle(low, wasm_u64x2_shr(wasm_u64x2_extmul_high_u32x4(a, b), Shift), 0, 2, 4, 6);
     }
     GNOMON_LANES_VOID void settle(ints&) noexcept {}
 
