@@ -58,6 +58,10 @@ using gnomon::simd_isa;
 static_assert(simd_isa<gnomon::emulated<16>> && simd_isa<gnomon::emulated<64>> && !simd_isa<int> && !simd_isa<gnomon::half16>);
 #if GNOMON_X86
 static_assert(simd_isa<gnomon::sse2> && simd_isa<gnomon::avx2> && simd_isa<gnomon::avx512>);
+#elif GNOMON_NEON
+static_assert(simd_isa<gnomon::neon>);
+#elif GNOMON_WASM
+static_assert(simd_isa<gnomon::wasm128>);
 #endif
 
 /// Calls f(checks) for each target that this processor has.
@@ -66,6 +70,10 @@ template <typename F> void for_each_target(F&& f) {
     f(plain::all<gnomon::sse2>);
     if (gnomon::best_lanes() >= cpu_level::avx2) f(with_avx2::all<gnomon::avx2>);
     if (gnomon::best_lanes() >= cpu_level::avx512) f(with_avx512::all<gnomon::avx512>);
+#elif GNOMON_NEON
+    f(plain::all<gnomon::neon>);
+#elif GNOMON_WASM
+    f(plain::all<gnomon::wasm128>);
 #endif
     f(plain::all<gnomon::emulated<32>>); // the checks pass what is right
 }

@@ -41,7 +41,8 @@ concept channel_of_lanes = std::same_as<Channel, unorm8> || std::same_as<Channel
                            std::same_as<Channel, float32>;
 
 /// Does this build have these lanes?
-template <typename Isa> inline constexpr bool has_lanes = GNOMON_X86 != 0 || !std::same_as<Isa, best_isa>;
+template <typename Isa>
+inline constexpr bool has_lanes = GNOMON_X86 + GNOMON_NEON + GNOMON_WASM > 0 || !std::same_as<Isa, best_isa>;
 
 #if GNOMON_X86
 /// Each target's code goes by its own name.
@@ -81,8 +82,15 @@ void receive_on(strided_span<const Texel> texels, strided_span<const float> z, s
                 const rule& r) noexcept {
     on_any::receive_row<Isa>(texels, z, intensity, r);
 }
-/// No lanes are known of this processor: has_lanes<best_isa> is false, and nobody asks.
-template <typename F> auto with_lanes(cpu_level, F&& f) noexcept { return f.template operator()<emulated<16>>(); }
+
+#if GNOMON_NEON
+using only_lanes = neon;
+#elif GNOMON_WASM
+using only_lanes = wasm128;
+#else // none are known of this processor: has_lanes<best_isa> is false, and nobody asks
+using only_lanes = emulated<16>;
+#endif
+template <typename F> auto with_lanes(cpu_level, F&& f) noexcept { return f.template operator()<only_lanes>(); }
 #endif
 
 } // namespace detail
@@ -95,8 +103,8 @@ template <typename F> auto with_lanes(cpu_level, F&& f) noexcept { return f.temp
 /// \pre the processor has the lanes that are named: ask best_lanes(). simd<> has no such condition.
 template <typename Isa = best_isa> struct simd {
     static_assert(std::same_as<Isa, best_isa> || simd_isa<Isa>,
-                  "gnomon: simd<Isa> takes sse2, avx2, avx512, emulated<Bytes> or lanes of your own that model simd_isa; simd<> "
-                  "takes the best there are");
+                  "gnomon: simd<Isa> takes sse2, avx2, avx512, neon, wasm128, emulated<Bytes> or lanes of your own that model "
+                  "simd_isa; simd<> takes the best there are");
 
     template <texel_format Texel, kernel Kernel>
     void filter_region(std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, texel_rect region,

@@ -174,7 +174,9 @@ template <int Bytes> struct emulated {
     /// sum + a * b, the product rounded and then the sum, whatever a compiler may fuse.
     [[nodiscard]] static floats add_product(floats sum, floats a, floats b) noexcept {
         return of_floats<floats>([&](int i) {
-            return sum.lane[i] + static_cast<float>(static_cast<double>(a.lane[i]) * static_cast<double>(b.lane[i]));
+            float product = a.lane[i] * b.lane[i];
+            GNOMON_SETTLE(product);
+            return sum.lane[i] + product;
         });
     }
     /// a / b, correctly rounded. \pre 1 / b is the float nearest to it, and `a` a whole number in [0, b], b = 255 or 65535

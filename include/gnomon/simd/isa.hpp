@@ -4,7 +4,9 @@
 #include <gnomon/simd/avx2.hpp>
 #include <gnomon/simd/avx512.hpp>
 #include <gnomon/simd/emulated.hpp>
+#include <gnomon/simd/neon.hpp>
 #include <gnomon/simd/sse2.hpp>
+#include <gnomon/simd/wasm.hpp>
 
 #include <concepts>
 #include <cstdint>
@@ -96,8 +98,8 @@ concept sums_quads = simd_isa<Isa> && requires(typename Isa::ints i) {
     { Isa::add_dot8(i, i, i) } -> std::same_as<typename Isa::ints>;
 };
 
-/// Which lanes a processor has.
-enum class cpu_level { portable, sse2, avx2, avx512 };
+/// Which lanes a processor has: of x86 each level has those below it, elsewhere there is one.
+enum class cpu_level { portable, wasm128, neon, sse2, avx2, avx512 };
 
 namespace detail {
 
@@ -145,6 +147,10 @@ inline void ask_cpuid(std::uint32_t leaf, std::uint32_t (&r)[4]) noexcept { __cp
     const bool says_what_it_keeps = (leaf1[2] >> 27 & 1) != 0; // without OSXSAVE there is no xgetbv
     return level_of({leaf0[0], leaf1[2], leaf7[1], leaf7[2], says_what_it_keeps ? kept_registers() : 0});
 }
+#elif GNOMON_NEON
+[[nodiscard]] inline cpu_level ask_cpu() noexcept { return cpu_level::neon; }
+#elif GNOMON_WASM
+[[nodiscard]] inline cpu_level ask_cpu() noexcept { return cpu_level::wasm128; }
 #else
 [[nodiscard]] inline cpu_level ask_cpu() noexcept { return cpu_level::portable; }
 #endif
