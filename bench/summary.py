@@ -43,6 +43,12 @@ def filters(time):
                             ratios[f"filter.{of}.k{taps}.vs_opencv{suffix}"] = theirs / ours
             if logs:
                 ratios[f"filter.{of}.geomean.vs_opencv{suffix}"] = math.exp(sum(logs) / len(logs))
+    for what, suffix in (("box", ""), ("box.avx2", ".avx2")):
+        narrow, wide = (time.get(f"{what}/u8x2/k{taps}/1024") for taps in (3, 65))
+        if narrow and wide:
+            ratios[f"filter.box.u8x2.r32.over_r1{suffix}"] = wide / narrow
+            if theirs := time.get("boxcv/u8x2/k65/1024"):
+                ratios[f"filter.box.u8x2.r32.vs_opencv{suffix}"] = theirs / wide
     return ratios
 
 
