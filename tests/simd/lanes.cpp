@@ -23,6 +23,7 @@ struct memory {
 struct checks_of {
     int double_lanes;
     int (*ints)(const memory*);
+    int (*words)(const memory*);
     int (*doubles)(const double*);
     int (*products)(const double*, const double*);
     int (*floats)(const float*);
@@ -81,6 +82,25 @@ TEST_CASE("operations on whole numbers give the bits of the emulated ones") {
                 for (unsigned char& byte : each.byte)
                     byte = static_cast<unsigned char>(roll(0, 3) == 0 ? 128 * roll(0, 1) + 127 * roll(0, 1) : roll(0, 255));
             wrong += target.ints(m);
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("operations on numbers of 16 bits give the results of the emulated ones, of equal numbers and neighbours too") {
+    test::dice roll(414);
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int n = 0; n < 4000; ++n) {
+            std::uint16_t words[4][32];
+            for (auto& row : words)
+                for (std::uint16_t& word : row) word = static_cast<std::uint16_t>(roll.one_in(4) ? -roll(0, 2) : roll(0, 65535));
+            for (int i = 0; i < 32; ++i) // the first pair has neighbours, and now and then one that is equal, as the second has
+                if (roll.one_in(2)) words[1][i] = static_cast<std::uint16_t>(words[0][i] + (roll.one_in(16) ? 0 : 1 - 2 * roll(0, 1)));
+            if (roll.one_in(2)) words[3][roll(0, 31)] = words[2][0];
+            memory m[4];
+            for (int i = 0; i < 4; ++i) std::memcpy(m[i].byte, words[i], sizeof words[i]);
+            wrong += target.words(m);
         }
         CHECK(wrong == 0);
     });

@@ -34,6 +34,25 @@ template <typename Isa> int wrong_ints(const memory* m) {
                           same::interleave_byte2(same::load(below_2_24.byte), f, g, h));
 }
 
+/// The same for numbers of 16 bits, which the dice make equal or all but equal often enough.
+template <typename Isa> int wrong_words(const memory* m) {
+    using same = gnomon::emulated<Isa::bytes>;
+    const auto a = Isa::load(m[0].byte), b = Isa::load(m[1].byte), c = Isa::load(m[2].byte), d = Isa::load(m[3].byte);
+    const auto e = same::load(m[0].byte), f = same::load(m[1].byte), g = same::load(m[2].byte), h = same::load(m[3].byte);
+    const auto a8 = Isa::template shift_right16<8>(a), b8 = Isa::template shift_right16<8>(b);
+    const auto e8 = same::template shift_right16<8>(e), f8 = same::template shift_right16<8>(f);
+    return differing<Isa>(Isa::either(a, b), same::either(e, f)) + differing<Isa>(Isa::subtract16(a, b), same::subtract16(e, f)) +
+           differing<Isa>(Isa::subtract_to_zero16(a, b), same::subtract_to_zero16(e, f)) +
+           differing<Isa>(Isa::multiply_low16(a, b), same::multiply_low16(e, f)) +
+           differing<Isa>(Isa::multiply_high16(a, b), same::multiply_high16(e, f)) +
+           differing<Isa>(Isa::template shift_left16<8>(a), same::template shift_left16<8>(e)) + differing<Isa>(a8, e8) +
+           differing<Isa>(Isa::template shift_right16<7>(a), same::template shift_right16<7>(e)) +
+           differing<Isa>(Isa::greater16(a, b), same::greater16(e, f)) +
+           differing<Isa>(Isa::upper_where_greater16(c, a, b), same::upper_where_greater16(g, e, f)) +
+           (Isa::any_equal16(a, b, c, d) != same::any_equal16(e, f, g, h)) +
+           differing<Isa>(Isa::narrow16(a8, b8), same::narrow16(e8, f8));
+}
+
 /// The same for arithmetic and comparisons of floats, any of which may be none: what is left of a NaN may be any NaN.
 template <typename Isa> int wrong_floats(const float* number) {
     using same = gnomon::emulated<Isa::bytes>;
@@ -117,6 +136,7 @@ template <typename Isa, gnomon::channel Channel> int wrong_codes(const typename 
 template <typename Isa>
 inline constexpr checks_of all{Isa::double_lanes,
                                wrong_ints<Isa>,
+                               wrong_words<Isa>,
                                wrong_doubles<Isa>,
                                wrong_products<Isa>,
                                wrong_floats<Isa>,

@@ -51,8 +51,8 @@ bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect re
     else
         return on_any::filter_rows<Isa, Kernel, Texel>(from, to, region);
 }
-template <typename Isa, texel_format Texel>
-void receive_on(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+void receive_on(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
                 const rule& r) noexcept {
     if constexpr (std::same_as<Isa, avx512>)
         on_avx512::receive_row<avx512>(texels, z, intensity, r);
@@ -73,8 +73,8 @@ template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
     return on_any::filter_rows<Isa, Kernel, Texel>(from, to, region);
 }
-template <typename Isa, texel_format Texel>
-void receive_on(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+void receive_on(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
                 const rule& r) noexcept {
     on_any::receive_row<Isa>(texels, z, intensity, r);
 }
@@ -107,18 +107,18 @@ template <typename Isa = best_isa> struct simd {
         }
         gnomon::filter_region(from, to, region, scratch);
     }
-    template <texel_format Texel>
-    void receive(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+    template <texel_format Texel, depth_number Depth, intensity_number Intensity>
+    void receive(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
                  const rule& r) const noexcept {
         if constexpr (detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
-                      on_any::decided_in_lanes<Texel>)
+                      on_any::decided_in_lanes<Texel, Depth, Intensity>)
             call([&]<typename Lanes>() { detail::receive_on<Lanes>(texels, z, intensity, r); });
         else
             gnomon::receive(texels, z, intensity, r);
     }
-    template <texel_format Texel>
-    void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
-                 strided_span<float> intensity, const rule& r) const noexcept {
+    template <texel_format Texel, depth_number Depth, intensity_number Intensity>
+    void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const Depth> z,
+                 strided_span<Intensity> intensity, const rule& r) const noexcept {
         gnomon::receive(map, x, y, z, intensity, r);
     }
 

@@ -48,6 +48,26 @@ struct avx2 {
     }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
+    GNOMON_LANES ints either(ints a, ints b) noexcept { return _mm256_or_si256(a, b); }
+    GNOMON_LANES ints subtract16(ints a, ints b) noexcept { return _mm256_sub_epi16(a, b); }
+    GNOMON_LANES ints subtract_to_zero16(ints a, ints b) noexcept { return _mm256_subs_epu16(a, b); }
+    GNOMON_LANES ints multiply_low16(ints a, ints b) noexcept { return _mm256_mullo_epi16(a, b); }
+    GNOMON_LANES ints multiply_high16(ints a, ints b) noexcept { return _mm256_mulhi_epu16(a, b); }
+    template <int Bits> GNOMON_LANES ints shift_left16(ints a) noexcept { return _mm256_slli_epi16(a, Bits); }
+    template <int Bits> GNOMON_LANES ints shift_right16(ints a) noexcept { return _mm256_srli_epi16(a, Bits); }
+    GNOMON_LANES ints greater16(ints a, ints b) noexcept {
+        const ints sign = _mm256_set1_epi16(-32768);
+        return _mm256_cmpgt_epi16(_mm256_xor_si256(a, sign), _mm256_xor_si256(b, sign));
+    }
+    GNOMON_LANES ints upper_where_greater16(ints values, ints a, ints b) noexcept {
+        const ints lit = _mm256_cmpeq_epi16(_mm256_subs_epu16(a, b), _mm256_setzero_si256());
+        return _mm256_srli_epi16(_mm256_andnot_si256(lit, values), 8);
+    }
+    GNOMON_LANES bool any_equal16(ints a, ints b, ints c, ints d) noexcept {
+        return _mm256_movemask_epi8(_mm256_or_si256(_mm256_cmpeq_epi16(a, b), _mm256_cmpeq_epi16(c, d))) != 0;
+    }
+    GNOMON_LANES ints narrow16(ints a, ints b) noexcept { return _mm256_permute4x64_epi64(_mm256_packus_epi16(a, b), 0xD8); }
+
     GNOMON_LANES floats load(const float* from) noexcept { return _mm256_loadu_ps(from); }
     GNOMON_LANES_VOID void store(float* to, floats a) noexcept { _mm256_storeu_ps(to, a); }
     GNOMON_LANES floats repeat(float v) noexcept { return _mm256_set1_ps(v); }

@@ -40,6 +40,25 @@ struct avx512 {
     }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
+    GNOMON_LANES ints either(ints a, ints b) noexcept { return _mm512_or_si512(a, b); }
+    GNOMON_LANES ints subtract16(ints a, ints b) noexcept { return _mm512_sub_epi16(a, b); }
+    GNOMON_LANES ints subtract_to_zero16(ints a, ints b) noexcept { return _mm512_subs_epu16(a, b); }
+    GNOMON_LANES ints multiply_low16(ints a, ints b) noexcept { return _mm512_mullo_epi16(a, b); }
+    GNOMON_LANES ints multiply_high16(ints a, ints b) noexcept { return _mm512_mulhi_epu16(a, b); }
+    template <int Bits> GNOMON_LANES ints shift_left16(ints a) noexcept { return _mm512_slli_epi16(a, Bits); }
+    template <int Bits> GNOMON_LANES ints shift_right16(ints a) noexcept { return _mm512_srli_epi16(a, Bits); }
+    GNOMON_LANES ints greater16(ints a, ints b) noexcept { return _mm512_movm_epi16(_mm512_cmpgt_epu16_mask(a, b)); }
+    GNOMON_LANES ints upper_where_greater16(ints values, ints a, ints b) noexcept {
+        return _mm512_maskz_srli_epi16(_mm512_cmpgt_epu16_mask(a, b), values, 8);
+    }
+    GNOMON_LANES bool any_equal16(ints a, ints b, ints c, ints d) noexcept {
+        return (_mm512_cmpeq_epi16_mask(a, b) | _mm512_cmpeq_epi16_mask(c, d)) != 0;
+    }
+    GNOMON_LANES ints narrow16(ints a, ints b) noexcept {
+        const ints in_order = _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7); // of lanes of 128 bits that the packing took in turn
+        return _mm512_maskz_permutexvar_epi64(eight, in_order, _mm512_packus_epi16(a, b));
+    }
+
     GNOMON_LANES floats load(const float* from) noexcept { return _mm512_loadu_ps(from); }
     GNOMON_LANES_VOID void store(float* to, floats a) noexcept { _mm512_storeu_ps(to, a); }
     GNOMON_LANES floats repeat(float v) noexcept { return _mm512_set1_ps(v); }

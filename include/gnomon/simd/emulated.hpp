@@ -78,6 +78,51 @@ template <int Bytes> struct emulated {
     /// Nothing. Where a compiler would sum products as a tree, which takes more registers than there are, it keeps their order.
     static void settle(ints&) noexcept {}
 
+    /// 16 bits, unsigned: bits of either; a - b modulo 2^16, and 0 instead of less; both halves of a product.
+    [[nodiscard]] static ints either(ints a, ints b) noexcept {
+        return each<std::uint8_t>([&](int i) { return a.byte[i] | b.byte[i]; });
+    }
+    [[nodiscard]] static ints subtract16(ints a, ints b) noexcept {
+        return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(a, i) - at<std::uint16_t>(b, i); });
+    }
+    [[nodiscard]] static ints subtract_to_zero16(ints a, ints b) noexcept {
+        return each<std::uint16_t>([&](int i) {
+            const int difference = at<std::uint16_t>(a, i) - at<std::uint16_t>(b, i);
+            return difference > 0 ? difference : 0;
+        });
+    }
+    [[nodiscard]] static ints multiply_low16(ints a, ints b) noexcept {
+        return each<std::uint16_t>([&](int i) { return std::uint32_t{at<std::uint16_t>(a, i)} * at<std::uint16_t>(b, i); });
+    }
+    [[nodiscard]] static ints multiply_high16(ints a, ints b) noexcept {
+        return each<std::uint16_t>([&](int i) { return std::uint32_t{at<std::uint16_t>(a, i)} * at<std::uint16_t>(b, i) >> 16; });
+    }
+    template <int Bits> [[nodiscard]] static ints shift_left16(ints a) noexcept {
+        return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(a, i) << Bits; });
+    }
+    template <int Bits> [[nodiscard]] static ints shift_right16(ints a) noexcept {
+        return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(a, i) >> Bits; });
+    }
+    /// 16 bits, unsigned: all ones where a > b, else nothing; and there the upper byte of `values`, as a number of 16 bits.
+    [[nodiscard]] static ints greater16(ints a, ints b) noexcept {
+        return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(a, i) > at<std::uint16_t>(b, i) ? 0xFFFF : 0; });
+    }
+    [[nodiscard]] static ints upper_where_greater16(ints values, ints a, ints b) noexcept {
+        return each<std::uint16_t>(
+            [&](int i) { return at<std::uint16_t>(a, i) > at<std::uint16_t>(b, i) ? at<std::uint16_t>(values, i) >> 8 : 0; });
+    }
+    /// Are any 16 bits the same in `a` and `b`, or in `c` and `d`?
+    [[nodiscard]] static bool any_equal16(ints a, ints b, ints c, ints d) noexcept {
+        bool any = false;
+        for (int i = 0; i < Bytes / 2; ++i)
+            any |= at<std::uint16_t>(a, i) == at<std::uint16_t>(b, i) || at<std::uint16_t>(c, i) == at<std::uint16_t>(d, i);
+        return any;
+    }
+    /// The lower byte of each 16 bits of `a`, then of `b`. \pre the upper ones are 0
+    [[nodiscard]] static ints narrow16(ints a, ints b) noexcept {
+        return each<std::uint8_t>([&](int i) { return i < Bytes / 2 ? a.byte[2 * i] : b.byte[2 * i - Bytes]; });
+    }
+
     [[nodiscard]] static floats load(const float* from) noexcept { return copied<floats>(from); }
     static void store(float* to, floats a) noexcept { std::memcpy(to, &a, sizeof a); }
     [[nodiscard]] static floats repeat(float v) noexcept {

@@ -36,6 +36,17 @@ concept simd_isa =
         { Isa::add_dot16(i, i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::interleave_byte2(i, i, i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::settle(i) };
+        { Isa::either(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::subtract16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::subtract_to_zero16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::multiply_low16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::multiply_high16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_left16<8>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_right16<8>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::greater16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::upper_where_greater16(i, i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::any_equal16(i, i, i, i) } -> std::same_as<bool>;
+        { Isa::narrow16(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::load(static_cast<const float*>(numbers)) } -> std::same_as<typename Isa::floats>;
         { Isa::store(numbers, f) };
         { Isa::repeat(number) } -> std::same_as<typename Isa::floats>;

@@ -48,6 +48,26 @@ struct sse2 {
     }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
+    GNOMON_LANES ints either(ints a, ints b) noexcept { return _mm_or_si128(a, b); }
+    GNOMON_LANES ints subtract16(ints a, ints b) noexcept { return _mm_sub_epi16(a, b); }
+    GNOMON_LANES ints subtract_to_zero16(ints a, ints b) noexcept { return _mm_subs_epu16(a, b); }
+    GNOMON_LANES ints multiply_low16(ints a, ints b) noexcept { return _mm_mullo_epi16(a, b); }
+    GNOMON_LANES ints multiply_high16(ints a, ints b) noexcept { return _mm_mulhi_epu16(a, b); }
+    template <int Bits> GNOMON_LANES ints shift_left16(ints a) noexcept { return _mm_slli_epi16(a, Bits); }
+    template <int Bits> GNOMON_LANES ints shift_right16(ints a) noexcept { return _mm_srli_epi16(a, Bits); }
+    GNOMON_LANES ints greater16(ints a, ints b) noexcept {
+        const ints sign = _mm_set1_epi16(-32768);
+        return _mm_cmpgt_epi16(_mm_xor_si128(a, sign), _mm_xor_si128(b, sign));
+    }
+    GNOMON_LANES ints upper_where_greater16(ints values, ints a, ints b) noexcept {
+        const ints lit = _mm_cmpeq_epi16(_mm_subs_epu16(a, b), _mm_setzero_si128());
+        return _mm_srli_epi16(_mm_andnot_si128(lit, values), 8);
+    }
+    GNOMON_LANES bool any_equal16(ints a, ints b, ints c, ints d) noexcept {
+        return _mm_movemask_epi8(_mm_or_si128(_mm_cmpeq_epi16(a, b), _mm_cmpeq_epi16(c, d))) != 0;
+    }
+    GNOMON_LANES ints narrow16(ints a, ints b) noexcept { return _mm_packus_epi16(a, b); }
+
     GNOMON_LANES floats load(const float* from) noexcept { return _mm_loadu_ps(from); }
     GNOMON_LANES_VOID void store(float* to, floats a) noexcept { _mm_storeu_ps(to, a); }
     GNOMON_LANES floats repeat(float v) noexcept { return _mm_set1_ps(v); }
