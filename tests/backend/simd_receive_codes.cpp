@@ -57,7 +57,8 @@ const std::vector<rule>& rules() {
 
 template <typename Row> float any_depth(dice& roll, const typename Row::texel& texel) {
     const float s = gnomon::caster_depth(texel);
-    return roll.one_in(3) ? roll.unit() : s + static_cast<float>(roll(-3, 3)) / 65535.0f + (roll.one_in(2) ? 129.0f / 65535.0f : 0.0f);
+    return roll.one_in(3) ? roll.unit()
+                          : s + static_cast<float>(roll(-3, 3)) / 65535.0f + (roll.one_in(2) ? 129.0f / 65535.0f : 0.0f);
 }
 void set(float& z, float value) { z = value; }
 void set(std::uint16_t& z, float value) { z = gnomon::unorm16::encode(static_cast<double>(value)); }

@@ -25,7 +25,8 @@ bool shadowed(std::int64_t e, std::int64_t m, int code, bias_towards towards, in
     const std::int64_t sign = towards == bias_towards::light ? 1 : (towards == bias_towards::shadow ? -1 : 0);
     const std::int64_t z = code - sign * codes;
     if (m <= 0 || code == 0 || z <= 0) return false;
-    return z > 65535 || std::max<std::int64_t>(2 * e - sign * k, 0) * 65535 > std::max<std::int64_t>(2 * m + sign * k, 0) * (65535 - z);
+    return z > 65535 ||
+           std::max<std::int64_t>(2 * e - sign * k, 0) * 65535 > std::max<std::int64_t>(2 * m + sign * k, 0) * (65535 - z);
 }
 
 template <typename Texel> bool is_dark(const Texel& t, int code, const rule& r) {
@@ -36,7 +37,8 @@ constexpr bias_towards sides[] = {bias_towards::light, bias_towards::none, bias_
 
 } // namespace
 
-TEST_CASE("a depth of 16 bits is decided in whole numbers: every pair of bytes, at the code where its shadow begins and beside it") {
+TEST_CASE(
+    "a depth of 16 bits is decided in whole numbers: every pair of bytes, at the code where its shadow begins and beside it") {
     sweep wrong;
     for (const auto towards : sides)
         for (const int k : {1, 2})
@@ -53,8 +55,8 @@ TEST_CASE("a depth of 16 bits is decided in whole numbers: every pair of bytes, 
                         }
                         for (const int code : {0, 1, lit - 1, lit, dark, dark + 1, 65535})
                             if (code >= 0 && code < 65536 && m > 0)
-                                wrong.unless(is_dark(t, code, r) == shadowed(e, m, code, towards, k, codes), "e", e, "m", m, "z", code,
-                                             "towards", static_cast<int>(towards));
+                                wrong.unless(is_dark(t, code, r) == shadowed(e, m, code, towards, k, codes), "e", e, "m", m, "z",
+                                             code, "towards", static_cast<int>(towards));
                     }
             }
     CHECK(wrong.report() == "");
@@ -68,7 +70,8 @@ TEST_CASE("a depth of 16 bits is decided in whole numbers: pairs of 16 bits and 
         const int k = roll(0, 3), extra = roll(0, 900);
         const rule r{.caster = {.towards = towards, .roundings = k, .depth = static_cast<float>(extra) / 65535.0f}};
         const std::int64_t m = roll(1, 65535), e = roll(0, static_cast<int>(m)), part = i % 2 ? 65536 : 1;
-        const std::int64_t m_part = roll.one_in(2) ? 0 : roll(0, static_cast<int>(part) - 1), e_part = std::min<std::int64_t>(m_part, 7);
+        const std::int64_t m_part = roll.one_in(2) ? 0 : roll(0, static_cast<int>(part) - 1),
+                           e_part = std::min<std::int64_t>(m_part, 7);
         filtered<rg16> f{};
         f.code[0] = static_cast<double>(e) + static_cast<double>(e_part) / static_cast<double>(part);
         f.code[1] = static_cast<double>(m) + static_cast<double>(m_part) / static_cast<double>(part);
@@ -121,7 +124,8 @@ TEST_CASE_TEMPLATE("towards light no code of a receiver at or before its caster 
             const int code = unorm16::encode(static_cast<double>(s));
             if (static_cast<double>(Texel::channel_type::code(t.stored[1])) <= 0.0) continue;
             wrong.unless(!is_dark(t, code, {}), "false shadow, s", s, "of 16", covered);
-            wrong.unless(code == 0 || s >= 1.0f || is_dark(t, code, {.caster = towards_shadow}), "false light, s", s, "of 16", covered);
+            wrong.unless(code == 0 || s >= 1.0f || is_dark(t, code, {.caster = towards_shadow}), "false light, s", s, "of 16",
+                         covered);
             // And shadow is kept two codes beyond where it is kept for a float: one for rounding up, one for the receiver's code.
             const double kept = test::end_of_doubt<Texel>(static_cast<double>(s), covered / 16.0) * 65535.0 + 2.0;
             if constexpr (std::same_as<typename Texel::representation_type, depth_mask>)
@@ -130,15 +134,16 @@ TEST_CASE_TEMPLATE("towards light no code of a receiver at or before its caster 
     CHECK(wrong.report() == "");
 }
 
-TEST_CASE_TEMPLATE("totality: whatever the bits, a depth of no code is lit, a clear texel is lit, and an intensity is one", Texel, rg8,
-                   rgb8, rg16f, rgba32f, tm16, test::paper16f) {
+TEST_CASE_TEMPLATE("totality: whatever the bits, a depth of no code is lit, a clear texel is lit, and an intensity is one", Texel,
+                   rg8, rgb8, rg16f, rgba32f, tm16, test::paper16f) {
     test::dice roll(96);
     sweep wrong;
     const filtered<Texel> clear = read(Texel::clear());
     for (int i = 0; i < 20'000; ++i) {
         filtered<Texel> f{};
         for (auto& code : f.code)
-            code = roll.one_in(4) ? (roll.one_in(2) ? std::numeric_limits<double>::quiet_NaN() : 1e30) : static_cast<double>(roll.unit()) * 70000.0 - 9.0;
+            code = roll.one_in(4) ? (roll.one_in(2) ? std::numeric_limits<double>::quiet_NaN() : 1e30)
+                                  : static_cast<double>(roll.unit()) * 70000.0 - 9.0;
         const rule r{.caster = {.towards = sides[i % 3], .depth = roll.unit() - 0.5f}, .fade = 0.1f};
         const depth16 z{static_cast<std::uint16_t>(roll(0, 65535))};
         const float intensity = shadow_as<float>(f, z, r);
@@ -150,7 +155,9 @@ TEST_CASE_TEMPLATE("totality: whatever the bits, a depth of no code is lit, a cl
 
 TEST_CASE("an intensity in codes is the mask's own, or the nearest to it, halves upwards") {
     sweep wrong;
-    const auto behind = [](auto number, const auto& f) { return shadow_as<decltype(number)>(f, depth16{65535}, {.caster = unbiased}); };
+    const auto behind = [](auto number, const auto& f) {
+        return shadow_as<decltype(number)>(f, depth16{65535}, {.caster = unbiased});
+    };
     for (int m = 0; m < 256; ++m) {
         const auto f = read(rg8{{static_cast<std::uint8_t>(m), static_cast<std::uint8_t>(m)}});
         wrong.unless(behind(std::uint8_t{}, f) == m && behind(std::uint16_t{}, f) == 257 * m, "byte", m);

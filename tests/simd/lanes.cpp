@@ -96,7 +96,8 @@ TEST_CASE("operations on numbers of 16 bits give the results of the emulated one
             for (auto& row : words)
                 for (std::uint16_t& word : row) word = static_cast<std::uint16_t>(roll.one_in(4) ? -roll(0, 2) : roll(0, 65535));
             for (int i = 0; i < 32; ++i) // the first pair has neighbours, and now and then one that is equal, as the second has
-                if (roll.one_in(2)) words[1][i] = static_cast<std::uint16_t>(words[0][i] + (roll.one_in(16) ? 0 : 1 - 2 * roll(0, 1)));
+                if (roll.one_in(2))
+                    words[1][i] = static_cast<std::uint16_t>(words[0][i] + (roll.one_in(16) ? 0 : 1 - 2 * roll(0, 1)));
             if (roll.one_in(2)) words[3][roll(0, 31)] = words[2][0];
             memory m[4];
             for (int i = 0; i < 4; ++i) std::memcpy(m[i].byte, words[i], sizeof words[i]);

@@ -39,17 +39,21 @@ template <typename Isa, texel_format Texel> struct decision {
         return Isa::template codes_of<channel_type, Texel::channels>(texels, index);
     }
 
-    void operator()(const storage* texels, const float* depths, float* intensities) const noexcept {
+    GNOMON_LANES_VOID void one(const decision& by, const storage* texels, const float* depths, float* intensities) noexcept {
         const floats zero = Isa::repeat(0.0f), depth = Isa::load(depths);
-        const floats mask = codes(texels, Texel::mask_index), biased_mask = Isa::add(mask, m);
-        const floats rest = Isa::subtract(Isa::add(codes(texels, Texel::depth_index), e), biased_mask);
+        const floats mask = codes(texels, Texel::mask_index), biased_mask = Isa::add(mask, by.m);
+        const floats rest = Isa::subtract(Isa::add(codes(texels, Texel::depth_index), by.e), biased_mask);
         // Doubled they are whole, and times the least depth there is still something.
-        auto shadowed = Isa::positive(Isa::add(biased_mask, biased_mask), Isa::add(depth, z), Isa::add(rest, rest));
+        auto shadowed = Isa::positive(Isa::add(biased_mask, biased_mask), Isa::add(depth, by.z), Isa::add(rest, rest));
         shadowed = Isa::both(Isa::both(shadowed, Isa::greater(depth, zero)),
-                             Isa::both(Isa::greater(mask, zero), Isa::not_greater(depth, farthest)));
+                             Isa::both(Isa::greater(mask, zero), Isa::not_greater(depth, by.farthest)));
         floats darkness = mask;
         if constexpr (Texel::effects.translucency) darkness = codes(texels, Texel::contribution_index);
         Isa::store(intensities, Isa::keep(shadowed, Isa::fraction(darkness, channel_type::scale)));
+    }
+    GNOMON_LANES_VOID void rows(const decision& by, const storage* texels, const float* depths, float* intensities,
+                                int count) noexcept {
+        for (int i = 0; i < count; i += step) one(by, texels + i * Texel::channels, depths + i, intensities + i);
     }
 };
 
@@ -61,29 +65,36 @@ template <typename Isa, texel_format Texel> struct byte_decision {
     using ints = typename Isa::ints;
     static constexpr int step = Isa::bytes;
 
-    ints nearer, farther;           ///< codes by which z is moved
-    ints last;                      ///< beyond is behind every caster
-    ints depth_up, depth_down;      ///< half codes by which the pair is moved
+    ints nearer, farther;      ///< codes by which z is moved
+    ints last;                 ///< beyond is behind every caster
+    ints depth_up, depth_down; ///< half codes by which the pair is moved
     ints mask_up, mask_down;
     bool one_rounding_towards_light; ///< k = 1, and z not moved away: the rule that is nearly always meant
 
     [[nodiscard]] static byte_decision of(const rule& r) noexcept {
         const int codes = codes_towards_light<Texel>(r.caster);
         const bool light = r.caster.towards == bias_towards::light, shadow = r.caster.towards == bias_towards::shadow;
-        const auto words = [](bool on, int n) { return Isa::repeat32(on ? static_cast<std::uint32_t>(n) * 0x10001u : 0u); };
         const int k = r.caster.roundings;
-        return {words(codes > 0, codes), words(codes < 0, -codes), words(true, depth16::last + lesser(codes, 0)), words(shadow, k), words(light, k), words(light, k), words(shadow, k),
+        return {words(codes > 0, codes),
+                words(codes < 0, -codes),
+                words(true, depth16::last + lesser(codes, 0)),
+                words(shadow, k),
+                words(light, k),
+                words(light, k),
+                words(shadow, k),
                 light && k == 1 && codes >= 0};
     }
+
+    GNOMON_LANES ints words(bool on, int n) noexcept { return Isa::repeat32(on ? static_cast<std::uint32_t>(n) * 0x10001u : 0u); }
 
     /// k = 1. The high half of 128 m Z, h, against 128 f = 256 (M-E) + 256:
     ///     h >= 128 f       128 m Z >= 65536 * 128 f > 65535 * 128 f     shadowed
     ///     h <= 128 f - 2   128 m Z < 65536 (128 f - 1) <= 65535 * 128 f, for 128 f <= 65536     lit
     /// What is left, h = 128 f - 1, is unsure; so is h = 0 where E > M and the difference counts as nothing, since there every Z that
     /// is not 0 is shadowed. One receiver in 10,000, unless all lie where their shadow begins.
-    GNOMON_LANES bool quick(const std::uint8_t* texels, const std::uint16_t* depths, const ints& moved, ints (&shade)[2]) noexcept {
+    GNOMON_LANES bool quick(const ints& moved, const std::uint8_t* texels, const std::uint16_t* depths, std::uint8_t* to) noexcept {
         const ints low = Isa::repeat32(0x00FF00FF), half = Isa::repeat32(0x007F007F);
-        ints high[2], last[2];
+        ints high[2], last[2], shade[2];
         GNOMON_UNROLL(2)
         for (int i = 0; i < 2; ++i) {
             const ints pairs = Isa::load(texels + i * Isa::bytes), filled = Isa::either(pairs, low); // 256 M + 255
@@ -92,7 +103,9 @@ template <typename Isa, texel_format Texel> struct byte_decision {
             last[i] = Isa::subtract_to_zero16(filled, Isa::template shift_left16<8>(pairs));
             shade[i] = Isa::upper_where_greater16(pairs, high[i], last[i]);
         }
-        return !Isa::any_equal16(high[0], last[0], high[1], last[1]);
+        if (Isa::any_equal16(high[0], last[0], high[1], last[1])) return false;
+        Isa::store(to, Isa::narrow16(shade[0], shade[1]));
+        return true;
     }
 
     /// Any rule: 65536 e > m R + e, so iff the high half of m R + e is less than e. What a bias moves beyond nothing is nothing.
@@ -110,12 +123,16 @@ template <typename Isa, texel_format Texel> struct byte_decision {
         return Isa::upper_where_greater16(pairs, Isa::either(e, Isa::greater16(depths, by.last)), Isa::either(high, lit));
     }
 
-    void operator()(const std::uint8_t* texels, const std::uint16_t* depths, std::uint8_t* intensities) const noexcept {
-        ints shade[2];
-        if (!one_rounding_towards_light || !quick(texels, depths, nearer, shade))
-            for (int i = 0; i < 2; ++i)
-                shade[i] = exact(Isa::load(texels + i * Isa::bytes), Isa::load(depths + i * (Isa::bytes / 2)), *this);
-        Isa::store(intensities, Isa::narrow16(shade[0], shade[1]));
+    static void slow(const byte_decision& by, const std::uint8_t* texels, const std::uint16_t* depths, std::uint8_t* to) noexcept {
+        const ints first = exact(Isa::load(texels), Isa::load(depths), by);
+        Isa::store(to, Isa::narrow16(first, exact(Isa::load(texels + Isa::bytes), Isa::load(depths + Isa::bytes / 2), by)));
+    }
+    GNOMON_LANES_VOID void rows(const byte_decision& by, const std::uint8_t* texels, const std::uint16_t* depths, std::uint8_t* to,
+                                int count) noexcept {
+        const ints moved = by.nearer;
+        const bool try_quick = by.one_rounding_towards_light;
+        for (int i = 0; i < count; i += step)
+            if (!try_quick || !quick(moved, texels + 2 * i, depths + i, to + i)) slow(by, texels + 2 * i, depths + i, to + i);
     }
 };
 
@@ -145,16 +162,15 @@ void receive_row(strided_span<const Texel> texels, strided_span<const Depth> z, 
     const auto decide = one::of(r);
     const int count = lesser(texels.size(), lesser(z.size(), intensity.size()));
     const bool side_by_side = texels.contiguous() && z.contiguous() && intensity.contiguous();
-    int i = 0;
-    if (side_by_side)
-        for (; i + one::step <= count; i += one::step) decide(texels[i].stored, &z[i], &intensity[i]);
-    for (; i < count; i += one::step) {
+    const int whole = side_by_side ? count - count % one::step : 0;
+    if (whole > 0) one::rows(decide, texels[0].stored, &z[0], &intensity[0], whole);
+    for (int i = whole; i < count; i += one::step) {
         const int some = lesser(one::step, count - i);
         Texel texel[static_cast<std::size_t>(one::step)]{};
         Depth depth[static_cast<std::size_t>(one::step)]{};
         Intensity made[static_cast<std::size_t>(one::step)];
         for (int k = 0; k < some; ++k) texel[k] = texels[i + k], depth[k] = z[i + k];
-        decide(texel->stored, depth, made);
+        one::rows(decide, texel->stored, depth, made, one::step);
         for (int k = 0; k < some; ++k) intensity[i + k] = made[k];
     }
 }

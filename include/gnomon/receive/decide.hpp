@@ -93,7 +93,8 @@ template <intensity_number Intensity, texel_format Texel, typename Depth>
 }
 
 /// The same as a float.
-template <texel_format Texel> [[nodiscard]] constexpr float shadow(const filtered<Texel>& texel, float z, const rule& r = {}) noexcept {
+template <texel_format Texel>
+[[nodiscard]] constexpr float shadow(const filtered<Texel>& texel, float z, const rule& r = {}) noexcept {
     return shadow_as<float>(texel, z, r);
 }
 

@@ -63,8 +63,8 @@ void receive(image_view<T> map, image_view<Z> z, image_view<Intensity> intensity
 /// Receivers anywhere: at (x[i], y[i]) in texels, blended from four. Off the map is lit. The shortest span counts.
 template <typename T, depth_row Depths, intensity_row Intensities>
     requires texel_format<std::remove_const_t<T>>
-void receive(image_view<T> map, strided_span<const float> x, strided_span<const float> y, const Depths& z,
-             Intensities&& intensity, const rule& r = {}) noexcept {
+void receive(image_view<T> map, strided_span<const float> x, strided_span<const float> y, const Depths& z, Intensities&& intensity,
+             const rule& r = {}) noexcept {
     const strided_span depths(z);
     const strided_span out(intensity);
     using number = typename decltype(out)::element_type;
