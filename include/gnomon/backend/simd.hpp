@@ -61,6 +61,16 @@ void receive_on(strided_span<const Texel> texels, strided_span<const Depth> z, s
     else
         on_any::receive_row<Isa>(texels, z, intensity, r);
 }
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+bool receive_points_on(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
+                       strided_span<const Depth> z, strided_span<Intensity> intensity, const rule& r) noexcept {
+    if constexpr (std::same_as<Isa, avx512>)
+        return on_avx512::receive_points<avx512>(map, x, y, z, intensity, r);
+    else if constexpr (std::same_as<Isa, avx2>)
+        return on_avx2::receive_points<avx2>(map, x, y, z, intensity, r);
+    else
+        return on_any::receive_points<Isa>(map, x, y, z, intensity, r);
+}
 
 /// Calls f.template operator()<Isa>() with the lanes of a level.
 template <typename F> auto with_lanes(cpu_level level, F&& f) noexcept {
@@ -77,6 +87,11 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
 void receive_on(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
                 const rule& r) noexcept {
     on_any::receive_row<Isa>(texels, z, intensity, r);
+}
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+bool receive_points_on(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
+                       strided_span<const Depth> z, strided_span<Intensity> intensity, const rule& r) noexcept {
+    return on_any::receive_points<Isa>(map, x, y, z, intensity, r);
 }
 /// No lanes are known of this processor: has_lanes<best_isa> is false, and nobody asks.
 template <typename F> auto with_lanes(cpu_level, F&& f) noexcept { return f.template operator()<emulated<16>>(); }
@@ -119,6 +134,9 @@ template <typename Isa = best_isa> struct simd {
     template <texel_format Texel, depth_number Depth, intensity_number Intensity>
     void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const Depth> z,
                  strided_span<Intensity> intensity, const rule& r) const noexcept {
+        if constexpr (detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
+                      on_any::blended_in_lanes<Texel, Depth, Intensity>)
+            if (call([&]<typename Lanes>() { return detail::receive_points_on<Lanes>(map, x, y, z, intensity, r); })) return;
         gnomon::receive(map, x, y, z, intensity, r);
     }
 

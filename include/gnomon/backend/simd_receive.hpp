@@ -175,5 +175,155 @@ void receive_row(strided_span<const Texel> texels, strided_span<const Depth> z, 
     }
 }
 
+/// One register of receivers anywhere on a map of pairs of bytes. Both texels of a row come in one gather of 32 bits; a blend is a whole
+/// number, the code times 65536, below 2^24 and so exact in float, as is all that is asked of it.
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct blended_decision {
+    using ints = typename Isa::ints;
+    using floats = typename Isa::floats;
+    using masks = typename Isa::masks;
+    static constexpr int step = Isa::float_lanes;
+    static constexpr float whole = 65536.0f; ///< the sum of the four weights
+
+    struct pair {
+        floats e, m;
+    };
+    /// Where a tap lies in one direction: its texel, and the weights of that and of the next.
+    struct taps {
+        ints texel, here, next;
+    };
+
+    const void* map;
+    ints last_column, last_row, stride; ///< the last texel that has a next one, and bytes from row to row
+    std::ptrdiff_t next_row;            ///< in bytes
+    floats e, m, z;                     ///< the bias: what pair and receiver are moved by
+    floats farthest;                    ///< float depths beyond are lit, codes beyond are behind every caster
+
+    /// Biases of one rounding keep the pair below 2^24. Offsets are of 32 bits, and a row has two texels for a gather.
+    [[nodiscard]] static bool serves(image_view<const Texel> map, const rule& r) noexcept {
+        constexpr int most = 1 << 21;
+        const std::ptrdiff_t row = map.stride() < 0 ? -map.stride() : map.stride();
+        return r.caster.roundings >= 0 && r.caster.roundings <= 1 && map.width() >= 2 && map.height() >= 2 && map.width() <= most &&
+               map.height() <= most && row <= 0x7FFFFFFF / map.height();
+    }
+    [[nodiscard]] static blended_decision of(image_view<const Texel> map, const rule& r) noexcept {
+        const biased moved = apply<Texel>(r.caster, 0.0, 0.0, 0.0f);
+        const int codes = codes_towards_light<Texel>(r.caster);
+        constexpr float nowhere = std::numeric_limits<float>::infinity();
+        constexpr bool whole_depth = std::same_as<Depth, std::uint16_t>;
+        const auto word = [](int n) { return static_cast<std::uint32_t>(n); };
+        return {map.data(),
+                Isa::repeat32(word(map.width() - 2)),
+                Isa::repeat32(word(map.height() - 2)),
+                Isa::repeat32(word(static_cast<int>(map.stride()))),
+                map.stride(),
+                Isa::repeat(static_cast<float>(moved.e) * whole),
+                Isa::repeat(static_cast<float>(moved.m) * whole),
+                Isa::repeat(whole_depth ? static_cast<float>(-codes) : moved.z),
+                Isa::repeat(whole_depth ? static_cast<float>(depth16::last) : (r.lit_beyond ? 1.0f : nowhere))};
+    }
+
+    /// A position in 1/256 texel, p = floor(256 x + 1/2) - 128 as `sample` has it, is p/256 texels right of the centre of texel 0. A
+    /// texel's weight is 256 less its distance, and nothing from 256 on: so weights fade out by themselves at the border, where the
+    /// two texels that are read are not those beside the position. (256 x is exact, and beyond 2^30 lies off every map.)
+    GNOMON_LANES taps place(const float* position, const ints& last) noexcept {
+        const ints none = Isa::repeat32(0), one = Isa::repeat32(256);
+        const ints doubled = Isa::floor32(Isa::multiply(Isa::load(position), Isa::repeat(512.0f)));
+        const ints p = Isa::subtract32(Isa::template shift_right32<1>(Isa::add32(doubled, Isa::repeat32(1))), Isa::repeat32(128));
+        const ints texel = Isa::greater32(Isa::lesser32(Isa::template shift_right32<8>(p), last), none);
+        const ints right = Isa::subtract32(p, Isa::template shift_left32<8>(texel)); // of the texel
+        const ints here = Isa::lesser32(Isa::subtract32(one, right), Isa::add32(one, right));
+        const ints next = Isa::lesser32(right, Isa::subtract32(Isa::repeat32(512), right));
+        return {texel, Isa::greater32(here, none), Isa::greater32(next, none)};
+    }
+
+    GNOMON_LANES pair blend(const blended_decision& by, const float* x, const float* y) noexcept {
+        const taps across = place(x, by.last_column), down = place(y, by.last_row);
+        const ints at = Isa::add32(Isa::multiply32(down.texel, by.stride), Isa::template shift_left32<1>(across.texel));
+        const ints weights = Isa::either(across.here, Isa::template shift_left32<16>(across.next)), low = Isa::repeat32(0x00FF00FF);
+        const ints above = Isa::gather32(by.map, at),
+                   below = Isa::gather32(static_cast<const std::byte*>(by.map) + by.next_row, at);
+        const auto row = [&](const ints& codes) { return Isa::numbers(Isa::add_dot16(Isa::repeat32(0), weights, codes)); };
+        const floats here = Isa::numbers(down.here), next = Isa::numbers(down.next);
+        return {Isa::add_product(Isa::multiply(row(Isa::both(above, low)), here), row(Isa::both(below, low)), next),
+                Isa::add_product(Isa::multiply(row(Isa::template shift_right16<8>(above)), here),
+                                 row(Isa::template shift_right16<8>(below)), next)};
+    }
+
+    /// m z + (e-m) > 0, as above.
+    GNOMON_LANES bool decided(const blended_decision& by, const pair& moved, const floats& mask, const float* depths,
+                              masks& shadowed) noexcept {
+        const floats zero = Isa::repeat(0.0f), depth = Isa::load(depths);
+        shadowed = Isa::positive(moved.m, Isa::add(depth, by.z), Isa::subtract(moved.e, moved.m));
+        shadowed = Isa::both(Isa::both(shadowed, Isa::greater(depth, zero)),
+                             Isa::both(Isa::greater(mask, zero), Isa::not_greater(depth, by.farthest)));
+        return true;
+    }
+    /// The same times 65535, where sums of 2^40 are rounded three times, each time by 2^16 at most: within 2^18 of nothing they say
+    /// nothing. False if a receiver that has a mask lies there, or is moved behind every caster, or its pair beyond nothing.
+    GNOMON_LANES bool decided(const blended_decision& by, const pair& moved, const floats& mask, const std::uint16_t* depths,
+                              masks& shadowed) noexcept {
+        const floats zero = Isa::repeat(0.0f), code = Isa::template codes_of<unorm16, 1>(depths, 0), depth = Isa::add(code, by.z);
+        const floats rest = Isa::multiply(Isa::subtract(moved.e, moved.m), Isa::repeat(static_cast<float>(depth16::last)));
+        const floats sum = Isa::add_product(rest, moved.m, depth), doubt = Isa::repeat(0x1p18f);
+        const masks there = Isa::both(Isa::greater(mask, zero), Isa::both(Isa::greater(code, zero), Isa::greater(depth, zero)));
+        shadowed = Isa::both(there, Isa::greater(sum, doubt));
+        const masks near_nothing = Isa::both(Isa::not_greater(sum, doubt), Isa::not_greater(Isa::repeat(-0x1p18f), sum));
+        return !Isa::any(Isa::both(there, near_nothing)) && !Isa::any(Isa::both(there, Isa::greater(depth, by.farthest)));
+    }
+
+    GNOMON_LANES_VOID void store(float* to, const masks& shadowed, const floats& mask) noexcept {
+        Isa::store(to, Isa::keep(shadowed, Isa::fraction(mask, unorm8::scale * whole)));
+    }
+    GNOMON_LANES_VOID void store(std::uint8_t* to, const masks& shadowed, const floats& mask) noexcept {
+        const floats code = Isa::add(Isa::multiply(mask, Isa::repeat(1.0f / whole)), Isa::repeat(0.5f)); // exact
+        Isa::template store_codes<unorm8>(to, Isa::keep(shadowed, code));
+    }
+
+    /// False, and nothing stored, if float does not tell.
+    GNOMON_LANES bool one(const blended_decision& by, const float* x, const float* y, const Depth* z, Intensity* to) noexcept {
+        const pair blended = blend(by, x, y);
+        masks shadowed;
+        if (!decided(by, {Isa::add(blended.e, by.e), Isa::add(blended.m, by.m)}, blended.m, z, shadowed)) return false;
+        store(to, shadowed, blended.m);
+        return true;
+    }
+};
+
+/// What lanes blend and decide.
+template <texel_format Texel, typename Depth, typename Intensity>
+inline constexpr bool blended_in_lanes =
+    pairs_of_codes<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, unorm8> &&
+    (std::same_as<Intensity, float> || std::same_as<Intensity, std::uint8_t>);
+
+/// Receivers anywhere, spans of any stride. False, and nothing done, where the lanes do not serve.
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+bool receive_points(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
+                    strided_span<const Depth> z, strided_span<Intensity> intensity, const rule& r) noexcept {
+    using blended = blended_decision<Isa, Texel, Depth, Intensity>;
+    constexpr int step = blended::step;
+    if (!blended::serves(map, r)) return false;
+    const auto by = blended::of(map, r);
+    const int count = lesser(lesser(x.size(), y.size()), lesser(z.size(), intensity.size()));
+    const bool side_by_side = x.contiguous() && y.contiguous() && z.contiguous() && intensity.contiguous();
+    const int together = side_by_side ? count - count % step : 0;
+    const auto exactly = [&](int i, int some) {
+        for (int k = i; k < i + some; ++k) intensity[k] = shadow_as<Intensity>(sample(map, x[k], y[k]), detail::as_depth(z[k]), r);
+    };
+    for (int i = 0; i < together; i += step)
+        if (!blended::one(by, &x[i], &y[i], &z[i], &intensity[i])) exactly(i, step);
+    for (int i = together; i < count; i += step) {
+        const int some = lesser(step, count - i);
+        float px[static_cast<std::size_t>(step)]{}, py[static_cast<std::size_t>(step)]{};
+        Depth depth[static_cast<std::size_t>(step)]{};
+        Intensity made[static_cast<std::size_t>(step)];
+        for (int k = 0; k < some; ++k) px[k] = x[i + k], py[k] = y[i + k], depth[k] = z[i + k];
+        if (blended::one(by, px, py, depth, made))
+            for (int k = 0; k < some; ++k) intensity[i + k] = made[k];
+        else
+            exactly(i, some);
+    }
+    return true;
+}
+
 } // namespace gnomon::GNOMON_ON
 #endif

@@ -68,6 +68,20 @@ struct avx2 {
     }
     GNOMON_LANES ints narrow16(ints a, ints b) noexcept { return _mm256_permute4x64_epi64(_mm256_packus_epi16(a, b), 0xD8); }
 
+    GNOMON_LANES ints both(ints a, ints b) noexcept { return _mm256_and_si256(a, b); }
+    GNOMON_LANES ints add32(ints a, ints b) noexcept { return _mm256_add_epi32(a, b); }
+    GNOMON_LANES ints subtract32(ints a, ints b) noexcept { return _mm256_sub_epi32(a, b); }
+    GNOMON_LANES ints multiply32(ints a, ints b) noexcept { return _mm256_mullo_epi32(a, b); }
+    GNOMON_LANES ints lesser32(ints a, ints b) noexcept { return _mm256_min_epi32(a, b); }
+    GNOMON_LANES ints greater32(ints a, ints b) noexcept { return _mm256_max_epi32(a, b); }
+    template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return _mm256_slli_epi32(a, Bits); }
+    template <int Bits> GNOMON_LANES ints shift_right32(ints a) noexcept { return _mm256_srai_epi32(a, Bits); }
+    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
+        const ints none = _mm256_setzero_si256(), all = _mm256_cmpeq_epi32(none, none);
+        return _mm256_mask_i32gather_epi32(none, static_cast<const int*>(from), offsets, all, 1);
+    }
+    GNOMON_LANES ints floor32(floats a) noexcept { return _mm256_cvttps_epi32(_mm256_floor_ps(a)); }
+
     GNOMON_LANES floats load(const float* from) noexcept { return _mm256_loadu_ps(from); }
     GNOMON_LANES_VOID void store(float* to, floats a) noexcept { _mm256_storeu_ps(to, a); }
     GNOMON_LANES floats repeat(float v) noexcept { return _mm256_set1_ps(v); }
@@ -91,8 +105,30 @@ struct avx2 {
         } else if constexpr (std::same_as<Channel, unorm16> && Channels == 2) {
             const ints pairs = load(from);
             return _mm256_cvtepi32_ps(c == 0 ? _mm256_and_si256(pairs, _mm256_set1_epi32(65535)) : _mm256_srli_epi32(pairs, 16));
+        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 1) {
+            return _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
+        } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
+            return channel_of_pairs(load(from), load(from + 8), c);
+        } else if constexpr (std::same_as<Channel, half16> && Channels == 2) {
+            const auto* const pairs = reinterpret_cast<const __m128i*>(from);
+            return channel_of_pairs(_mm256_cvtph_ps(_mm_loadu_si128(pairs)), _mm256_cvtph_ps(_mm_loadu_si128(pairs + 1)), c);
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
+        }
+    }
+
+    GNOMON_LANES floats numbers(ints a) noexcept { return _mm256_cvtepi32_ps(a); }
+    GNOMON_LANES floats multiply(floats a, floats b) noexcept { return _mm256_mul_ps(a, b); }
+    GNOMON_LANES floats add_product(floats sum, floats a, floats b) noexcept { return _mm256_fmadd_ps(a, b, sum); }
+    GNOMON_LANES bool any(masks a) noexcept { return _mm256_movemask_ps(a) != 0; }
+    template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
+        const ints whole = _mm256_cvttps_epi32(a);
+        const __m128i words = _mm_packus_epi32(_mm256_castsi256_si128(whole), _mm256_extracti128_si256(whole, 1));
+        if constexpr (std::same_as<Channel, unorm8>) {
+            _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_packus_epi16(words, words));
+        } else {
+            static_assert(std::same_as<Channel, unorm16>, "gnomon: whole codes are those of unorm8 and unorm16");
+            _mm_storeu_si128(reinterpret_cast<__m128i*>(to), words);
         }
     }
 
@@ -140,6 +176,10 @@ struct avx2 {
     }
 
   private:
+    GNOMON_LANES floats channel_of_pairs(floats a, floats b, int c) noexcept {
+        const floats taken = c == 0 ? _mm256_shuffle_ps(a, b, 0x88) : _mm256_shuffle_ps(a, b, 0xDD);
+        return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(taken), 0xD8));
+    }
     /// Cut to the 24 bits of a float, the last one set if anything was lost: rounding that to a half rounds once.
     GNOMON_LANES doubles to_odd(doubles a) noexcept {
         const ints lost = _mm256_set1_epi64x((1 << 29) - 1), bits = _mm256_castpd_si256(a);

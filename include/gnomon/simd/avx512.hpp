@@ -59,6 +59,21 @@ struct avx512 {
         return _mm512_maskz_permutexvar_epi64(eight, in_order, _mm512_packus_epi16(a, b));
     }
 
+    GNOMON_LANES ints both(ints a, ints b) noexcept { return _mm512_and_si512(a, b); }
+    GNOMON_LANES ints add32(ints a, ints b) noexcept { return _mm512_add_epi32(a, b); }
+    GNOMON_LANES ints subtract32(ints a, ints b) noexcept { return _mm512_sub_epi32(a, b); }
+    GNOMON_LANES ints multiply32(ints a, ints b) noexcept { return _mm512_mullo_epi32(a, b); }
+    GNOMON_LANES ints lesser32(ints a, ints b) noexcept { return _mm512_maskz_min_epi32(all, a, b); }
+    GNOMON_LANES ints greater32(ints a, ints b) noexcept { return _mm512_maskz_max_epi32(all, a, b); }
+    template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return _mm512_maskz_slli_epi32(all, a, Bits); }
+    template <int Bits> GNOMON_LANES ints shift_right32(ints a) noexcept { return _mm512_maskz_srai_epi32(all, a, Bits); }
+    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
+        return _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), all, offsets, from, 1);
+    }
+    GNOMON_LANES ints floor32(floats a) noexcept {
+        return _mm512_maskz_cvt_roundps_epi32(all, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+    }
+
     GNOMON_LANES floats load(const float* from) noexcept { return _mm512_loadu_ps(from); }
     GNOMON_LANES_VOID void store(float* to, floats a) noexcept { _mm512_storeu_ps(to, a); }
     GNOMON_LANES floats repeat(float v) noexcept { return _mm512_set1_ps(v); }
@@ -82,8 +97,30 @@ struct avx512 {
         } else if constexpr (std::same_as<Channel, unorm16> && Channels == 2) {
             const ints pairs = load(from);
             return number(c == 0 ? _mm512_and_si512(pairs, _mm512_set1_epi32(65535)) : _mm512_maskz_srli_epi32(all, pairs, 16));
+        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 1) {
+            return number(_mm512_maskz_cvtepu16_epi32(all, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from))));
+        } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
+            return channel_of_pairs(load(from), load(from + 16), c);
+        } else if constexpr (std::same_as<Channel, half16> && Channels == 2) {
+            const auto* const pairs = reinterpret_cast<const __m256i*>(from);
+            return channel_of_pairs(_mm512_maskz_cvtph_ps(all, _mm256_loadu_si256(pairs)),
+                                    _mm512_maskz_cvtph_ps(all, _mm256_loadu_si256(pairs + 1)), c);
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
+        }
+    }
+
+    GNOMON_LANES floats numbers(ints a) noexcept { return number(a); }
+    GNOMON_LANES floats multiply(floats a, floats b) noexcept { return _mm512_mul_ps(a, b); }
+    GNOMON_LANES floats add_product(floats sum, floats a, floats b) noexcept { return _mm512_fmadd_ps(a, b, sum); }
+    GNOMON_LANES bool any(masks a) noexcept { return a != 0; }
+    template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
+        const ints whole = _mm512_maskz_cvttps_epi32(all, a);
+        if constexpr (std::same_as<Channel, unorm8>) {
+            _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm512_maskz_cvtepi32_epi8(all, whole));
+        } else {
+            static_assert(std::same_as<Channel, unorm16>, "gnomon: whole codes are those of unorm8 and unorm16");
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_maskz_cvtepi32_epi16(all, whole));
         }
     }
 
@@ -131,6 +168,10 @@ struct avx512 {
   private:
     static constexpr __mmask8 eight = 0xFF;
     static constexpr __mmask16 all = 0xFFFF; // g++ 12 warns of the undefined register that the forms without a mask begin with
+    GNOMON_LANES floats channel_of_pairs(floats a, floats b, int c) noexcept {
+        const ints even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+        return _mm512_permutex2var_ps(a, c == 0 ? even : _mm512_or_si512(even, _mm512_set1_epi32(1)), b);
+    }
     GNOMON_LANES floats number(ints a) noexcept { return _mm512_maskz_cvtepi32_ps(all, a); }
     /// `a` where the mask has ones, `b` where it has none.
     GNOMON_LANES ints chosen(ints mask, ints a, ints b) noexcept { return _mm512_ternarylogic_epi32(mask, a, b, 0xCA); }

@@ -123,6 +123,47 @@ template <int Bytes> struct emulated {
         return each<std::uint8_t>([&](int i) { return i < Bytes / 2 ? a.byte[2 * i] : b.byte[2 * i - Bytes]; });
     }
 
+    /// Bits of both; and 32 bits, signed, modulo 2^32.
+    [[nodiscard]] static ints both(ints a, ints b) noexcept {
+        return each<std::uint8_t>([&](int i) { return a.byte[i] & b.byte[i]; });
+    }
+    [[nodiscard]] static ints add32(ints a, ints b) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) + at<std::uint32_t>(b, i); });
+    }
+    [[nodiscard]] static ints subtract32(ints a, ints b) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) - at<std::uint32_t>(b, i); });
+    }
+    [[nodiscard]] static ints multiply32(ints a, ints b) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) * at<std::uint32_t>(b, i); });
+    }
+    [[nodiscard]] static ints lesser32(ints a, ints b) noexcept {
+        return each<std::int32_t>([&](int i) { return lesser(at<std::int32_t>(a, i), at<std::int32_t>(b, i)); });
+    }
+    [[nodiscard]] static ints greater32(ints a, ints b) noexcept {
+        return each<std::int32_t>([&](int i) { return gnomon::greater(at<std::int32_t>(a, i), at<std::int32_t>(b, i)); });
+    }
+    template <int Bits> [[nodiscard]] static ints shift_left32(ints a) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) << Bits; });
+    }
+    /// Downwards, with the sign.
+    template <int Bits> [[nodiscard]] static ints shift_right32(ints a) noexcept {
+        return each<std::int32_t>([&](int i) { return at<std::int32_t>(a, i) >> Bits; });
+    }
+    /// 32 bits from each of so many bytes behind `from`, at any alignment.
+    [[nodiscard]] static ints gather32(const void* from, ints offsets) noexcept {
+        return each<std::uint32_t>(
+            [&](int i) { return copied<std::uint32_t>(static_cast<const std::byte*>(from) + at<std::int32_t>(offsets, i)); });
+    }
+    /// The largest whole number of 32 bits that is not greater; -2^31 of what is beyond them, and of NaN.
+    [[nodiscard]] static ints floor32(floats a) noexcept {
+        return each<std::int32_t>([&](int i) {
+            const float v = a.lane[i];
+            if (!(v >= -0x1p31f && v < 0x1p31f)) return std::int32_t{-0x7FFFFFFF - 1};
+            const auto whole = static_cast<std::int32_t>(v);
+            return static_cast<float>(whole) > v ? whole - 1 : whole;
+        });
+    }
+
     [[nodiscard]] static floats load(const float* from) noexcept { return copied<floats>(from); }
     static void store(float* to, floats a) noexcept { std::memcpy(to, &a, sizeof a); }
     [[nodiscard]] static floats repeat(float v) noexcept {
@@ -134,7 +175,7 @@ template <int Bytes> struct emulated {
     [[nodiscard]] static floats subtract(floats a, floats b) noexcept {
         return of_floats<floats>([&](int i) { return a.lane[i] - b.lane[i]; });
     }
-    /// a / b, correctly rounded. \pre 1 / b is the float nearest to it, and `a` a whole number in [0, b], b = 255 or 65535
+    /// a / b, correctly rounded. \pre `a` is a whole number in [0, b], and b = 255, 65535, or 255 * 65536
     [[nodiscard]] static floats fraction(floats a, float b) noexcept {
         return of_floats<floats>([&](int i) { return a.lane[i] / b; });
     }
@@ -162,6 +203,27 @@ template <int Bytes> struct emulated {
     template <channel Channel, int Channels>
     [[nodiscard]] static floats codes_of(const typename Channel::storage* from, int c) noexcept {
         return of_floats<floats>([&](int i) { return Channel::code(from[i * Channels + c]); });
+    }
+
+    /// Whole numbers of 32 bits as floats, rounded to nearest.
+    [[nodiscard]] static floats numbers(ints a) noexcept {
+        return of_floats<floats>([&](int i) { return static_cast<float>(at<std::int32_t>(a, i)); });
+    }
+    [[nodiscard]] static floats multiply(floats a, floats b) noexcept {
+        return of_floats<floats>([&](int i) { return a.lane[i] * b.lane[i]; });
+    }
+    /// sum + a * b, \pre a * b is exact, so that it does not matter who fuses them.
+    [[nodiscard]] static floats add_product(floats sum, floats a, floats b) noexcept {
+        return of_floats<floats>([&](int i) { return sum.lane[i] + a.lane[i] * b.lane[i]; });
+    }
+    [[nodiscard]] static bool any(masks a) noexcept {
+        bool one = false;
+        for (int i = 0; i < float_lanes; ++i) one |= a.lane[i];
+        return one;
+    }
+    /// Stores whole codes, rounded downwards. \pre within the code's range
+    template <channel Channel> static void store_codes(typename Channel::storage* to, floats a) noexcept {
+        for (int i = 0; i < float_lanes; ++i) to[i] = static_cast<typename Channel::storage>(a.lane[i]);
     }
 
     [[nodiscard]] static doubles load(const double* from) noexcept { return copied<doubles>(from); }

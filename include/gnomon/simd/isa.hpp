@@ -47,6 +47,16 @@ concept simd_isa =
         { Isa::upper_where_greater16(i, i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::any_equal16(i, i, i, i) } -> std::same_as<bool>;
         { Isa::narrow16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::both(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::add32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::subtract32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::multiply32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::lesser32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::greater32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_left32<8>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_right32<8>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::gather32(memory, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::floor32(f) } -> std::same_as<typename Isa::ints>;
         { Isa::load(static_cast<const float*>(numbers)) } -> std::same_as<typename Isa::floats>;
         { Isa::store(numbers, f) };
         { Isa::repeat(number) } -> std::same_as<typename Isa::floats>;
@@ -59,6 +69,11 @@ concept simd_isa =
         { Isa::both(m, m) } -> std::same_as<typename Isa::masks>;
         { Isa::keep(m, f) } -> std::same_as<typename Isa::floats>;
         { Isa::template codes_of<unorm8, 2>(codes, 0) } -> std::same_as<typename Isa::floats>;
+        { Isa::numbers(i) } -> std::same_as<typename Isa::floats>;
+        { Isa::multiply(f, f) } -> std::same_as<typename Isa::floats>;
+        { Isa::add_product(f, f, f) } -> std::same_as<typename Isa::floats>;
+        { Isa::any(m) } -> std::same_as<bool>;
+        { Isa::template store_codes<unorm8>(codes, f) };
         { Isa::load(static_cast<const double*>(wides)) } -> std::same_as<typename Isa::doubles>;
         { Isa::store(wides, d) };
         { Isa::repeat(wide) } -> std::same_as<typename Isa::doubles>;
