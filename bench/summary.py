@@ -52,17 +52,22 @@ def filters(time):
     return ratios
 
 
+WHERE = {"128": "l2", "1024": "l3", "4096": "dram"}  # where a map of that side lies on most machines
+
+
 def receives(time):
     ratios = {}
-    for name, floor in time.items():
+    for name, of_lanes in time.items():
         what, of, size = name.split("/")
-        if what != "copy":
+        if what not in ("simd", "simd.avx2", "simd.sse2"):
             continue
-        where = {"128": "l2", "1024": "beyond"}.get(size, size)
-        for mine, suffix in (("simd", ""), ("simd.avx2", ".avx2"), ("simd.sse2", ".sse2")):
-            if ours := time.get(f"{mine}/{of}/{size}"):
-                ratios[f"receive.{of}.f32.of_copy_{where}{suffix}"] = floor / ours
-                ratios[f"receive.{of}.f32.vs_scalar_{where}{suffix}"] = time[f"scalar/{of}/{size}"] / ours
+        suffix = what.removeprefix("simd")
+        for peer, called in (("copy", "of_copy"), ("scalar", "vs_scalar")):
+            if theirs := time.get(f"{peer}/{of}/{size}"):
+                ratios[f"receive.{of}.{called}_{WHERE[size]}{suffix}"] = theirs / of_lanes
+        if theirs := time.get(f"opencv/{of}/{size}"):
+            where = "" if WHERE[size] == "l2" else "_" + WHERE[size]
+            ratios[f"receive.{of.removesuffix('.f32')}.vs_opencv{where}{suffix}"] = theirs / of_lanes
     return ratios
 
 
