@@ -88,6 +88,15 @@ struct avx2 {
         return _mm256_castsi256_pd(_mm256_and_si256(sum, _mm256_set1_epi64x(static_cast<long long>(mask))));
     }
 
+    GNOMON_LANES doubles subtract(doubles a, doubles b) noexcept { return _mm256_sub_pd(a, b); }
+    GNOMON_LANES doubles smaller(doubles a, doubles b) noexcept { return _mm256_min_pd(a, b); }
+    GNOMON_LANES doubles larger(doubles a, doubles b) noexcept { return _mm256_max_pd(a, b); }
+    GNOMON_LANES doubles truncate(doubles a) noexcept { return _mm256_cvtepi32_pd(_mm256_cvttpd_epi32(a)); }
+    GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept {
+        return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_GT_OQ)));
+    }
+    GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
+
     template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {
         if constexpr (std::same_as<Channel, unorm8>) {
             int four;

@@ -80,6 +80,15 @@ struct avx512 {
         return _mm512_castsi512_pd(_mm512_and_si512(sum, _mm512_set1_epi64(static_cast<long long>(mask))));
     }
 
+    GNOMON_LANES doubles subtract(doubles a, doubles b) noexcept { return _mm512_sub_pd(a, b); }
+    GNOMON_LANES doubles smaller(doubles a, doubles b) noexcept { return _mm512_maskz_min_pd(eight, a, b); }
+    GNOMON_LANES doubles larger(doubles a, doubles b) noexcept { return _mm512_maskz_max_pd(eight, a, b); }
+    GNOMON_LANES doubles truncate(doubles a) noexcept {
+        return _mm512_maskz_cvtepi32_pd(eight, _mm512_maskz_cvttpd_epi32(eight, a));
+    }
+    GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept { return _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ); }
+    GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
+
     template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {
         if constexpr (std::same_as<Channel, unorm8>) {
             return _mm512_maskz_cvtepi32_pd(eight, _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));

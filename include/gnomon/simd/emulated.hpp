@@ -142,6 +142,29 @@ template <int Bytes> struct emulated {
         return each([&](int i) { return std::bit_cast<double>((std::bit_cast<std::uint64_t>(a.lane[i]) + addend) & mask); });
     }
 
+    [[nodiscard]] static doubles subtract(doubles a, doubles b) noexcept {
+        return each([&](int i) { return a.lane[i] - b.lane[i]; });
+    }
+    /// The smaller and the larger of two; `b` if they are equal or one is NaN.
+    [[nodiscard]] static doubles smaller(doubles a, doubles b) noexcept {
+        return each([&](int i) { return a.lane[i] < b.lane[i] ? a.lane[i] : b.lane[i]; });
+    }
+    [[nodiscard]] static doubles larger(doubles a, doubles b) noexcept {
+        return each([&](int i) { return a.lane[i] > b.lane[i] ? a.lane[i] : b.lane[i]; });
+    }
+    /// Without what follows the point. \pre -2^31 < a < 2^31
+    [[nodiscard]] static doubles truncate(doubles a) noexcept {
+        return each([&](int i) { return static_cast<double>(static_cast<std::int32_t>(a.lane[i])); });
+    }
+    /// Bit i is set where lane i of `a` is greater.
+    [[nodiscard]] static unsigned greater_bits(doubles a, doubles b) noexcept {
+        unsigned bits = 0;
+        for (int i = 0; i < double_lanes; ++i) bits |= (a.lane[i] > b.lane[i] ? 1u : 0u) << i;
+        return bits;
+    }
+    /// Nothing. Where a compiler would fuse a product with the sum it goes into, it keeps the product's own rounding.
+    static void settle(doubles&) noexcept {}
+
     /// Codes of stored channels, exactly.
     template <channel Channel> [[nodiscard]] static doubles codes(const typename Channel::storage* from) noexcept {
         return each([&](int i) { return static_cast<double>(Channel::code(from[i])); });

@@ -89,6 +89,15 @@ struct sse2 {
         return _mm_castsi128_pd(_mm_and_si128(sum, _mm_set1_epi64x(static_cast<long long>(mask))));
     }
 
+    GNOMON_LANES doubles subtract(doubles a, doubles b) noexcept { return _mm_sub_pd(a, b); }
+    GNOMON_LANES doubles smaller(doubles a, doubles b) noexcept { return _mm_min_pd(a, b); }
+    GNOMON_LANES doubles larger(doubles a, doubles b) noexcept { return _mm_max_pd(a, b); }
+    GNOMON_LANES doubles truncate(doubles a) noexcept { return _mm_cvtepi32_pd(_mm_cvttpd_epi32(a)); }
+    GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept {
+        return static_cast<unsigned>(_mm_movemask_pd(_mm_cmpgt_pd(a, b)));
+    }
+    GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
+
     template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {
         return _mm_set_pd(static_cast<double>(Channel::code(from[1])), static_cast<double>(Channel::code(from[0])));
     }

@@ -1,0 +1,368 @@
+// gnomon: soft shadow maps. The rasteriser in lanes. geometry/rasterize_lanes.hpp includes it once for each target, inside its region,
+// so there is no #pragma once: GNOMON_ON names the namespace it goes to; without it there is nothing.
+//
+// Lanes are triangles while triangles are set up, and columns while rows are drawn. Every formula is that of geometry/rasterize.hpp
+// and GLM, in their order, each product rounded: `settle` keeps compilers from fusing it. No other number is computed in here, for a
+// compiler would fuse that.
+
+#include <gnomon/geometry/raster_job.hpp>
+#include <gnomon/simd/region.hpp>
+
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+#ifdef GNOMON_ON
+namespace gnomon::GNOMON_ON {
+
+template <typename Isa> struct rasterizer {
+    using doubles = typename Isa::doubles;
+    using job = detail::raster_job;
+    static constexpr int lanes = Isa::double_lanes;
+    /// Up to so many columns, a row is tested centre by centre.
+    static constexpr int narrow_columns = 32;
+
+    /// A vector or a point of as many triangles as there are lanes.
+    struct vectors {
+        doubles x, y, z;
+    };
+    struct numbers {
+        double lane[static_cast<std::size_t>(lanes)];
+    };
+
+    /// As many triangles as there are lanes, set up. The numbers of one are side by side with those of the others.
+    struct batch {
+        float position[9][static_cast<std::size_t>(lanes)]{};
+        std::uint32_t here = 0;      ///< which lanes hold a triangle of the mesh
+        std::uint32_t plain = 0;     ///< which of them no plane cuts
+        std::uint32_t on_target = 0; ///< which hold a centre of the target in the box around them
+        std::uint32_t narrow = 0;
+        numbers corner_x[3], corner_y[3]; ///< snapped, in 1/256 texel
+        numbers x0, y0, x1, y1;           ///< the centres in the box around them, of the target
+        numbers edge[3], per_column[3], per_row[3];
+        numbers x, y, a, b, c, at_reference, nearest, farthest, area;
+    };
+
+    GNOMON_LANES doubles times(doubles a, doubles b) noexcept {
+        doubles product = Isa::multiply(a, b);
+        Isa::settle(product);
+        return product;
+    }
+    GNOMON_LANES doubles absolute(doubles a) noexcept { return Isa::larger(a, Isa::subtract(Isa::repeat(0.0), a)); }
+    GNOMON_LANES doubles whole_number(int v) noexcept { return Isa::repeat(static_cast<double>(v)); }
+    GNOMON_LANES doubles sum(doubles a, doubles b, doubles c) noexcept { return Isa::add(Isa::add(a, b), c); }
+    GNOMON_LANES doubles cross(doubles a, doubles b, doubles c, doubles d) noexcept {
+        return Isa::subtract(times(a, b), times(c, d));
+    }
+    GNOMON_LANES vectors cross(vectors a, vectors b) noexcept {
+        return {cross(a.y, b.z, b.y, a.z), cross(a.z, b.x, b.z, a.x), cross(a.x, b.y, b.x, a.y)};
+    }
+    GNOMON_LANES_VOID void keep(numbers& to, doubles a) noexcept { Isa::store(to.lane, a); }
+
+    struct projected {
+        doubles x, y, z, w;
+    };
+    GNOMON_LANES projected project(const batch& of, const job& j, int corner) noexcept {
+        const doubles px = Isa::template codes<float32>(of.position[3 * corner]),
+                      py = Isa::template codes<float32>(of.position[3 * corner + 1]),
+                      pz = Isa::template codes<float32>(of.position[3 * corner + 2]);
+        const auto row = [&](int r) {
+            const auto m = [&](int column) { return Isa::repeat(j.to_map[column][r]); };
+            return Isa::add(Isa::add(times(m(0), px), times(m(1), py)), Isa::add(times(m(2), pz), m(3)));
+        };
+        return {row(0), row(1), row(2), j.divides ? row(3) : Isa::repeat(1.0)};
+    }
+
+    /// Which triangles no plane cuts, for sure: x and y within half the reach, and before the near plane. None with a NaN.
+    GNOMON_LANES std::uint32_t uncut(const projected& h, const job& j) noexcept {
+        const doubles zero = Isa::repeat(0.0), within = Isa::multiply(h.w, Isa::repeat(detail::fixed_point::reach));
+        const doubles left = Isa::subtract(Isa::subtract(within, absolute(h.x)), Isa::add(absolute(h.y), Isa::multiply(h.z, zero)));
+        return Isa::greater_bits(left, zero) & (j.perspective ? Isa::greater_bits(h.z, zero) : ~0u);
+    }
+
+    /// detail::fixed_point::nearest, of what is within its reach.
+    GNOMON_LANES doubles snapped(doubles v) noexcept {
+        constexpr double bias = 1 << 30, one = static_cast<double>(detail::fixed_point::one);
+        const doubles up = Isa::add(Isa::multiply(v, Isa::repeat(one)), Isa::repeat(bias + 0.5));
+        return Isa::subtract(Isa::truncate(up), Isa::repeat(bias));
+    }
+    /// detail::first_centre.
+    GNOMON_LANES doubles first_centre(doubles v) noexcept {
+        constexpr double bias = 1 << 30, one = static_cast<double>(detail::fixed_point::one);
+        const doubles up = Isa::add(v, Isa::repeat(bias + one - 1.0 - static_cast<double>(detail::fixed_point::half)));
+        return Isa::subtract(Isa::truncate(Isa::multiply(up, Isa::repeat(1.0 / one))), Isa::repeat(bias / one));
+    }
+
+    /// Three edges as functions of the centres, positive inside: whole numbers, and exact, of narrow triangles. A centre on an edge is
+    /// in if that is a top or a left one, so these are greater by one.
+    GNOMON_LANES_VOID void set_up_edges(batch& b, const doubles (&x)[3], const doubles (&y)[3]) noexcept {
+        const doubles zero = Isa::repeat(0.0), one = Isa::repeat(1.0), unit = Isa::repeat(256.0), half = Isa::repeat(128.0);
+        const doubles turn = Isa::subtract(Isa::multiply(Isa::subtract(x[1], x[0]), Isa::subtract(y[2], y[0])),
+                                           Isa::multiply(Isa::subtract(y[1], y[0]), Isa::subtract(x[2], x[0])));
+        const doubles sign = Isa::smaller(Isa::larger(turn, Isa::repeat(-1.0)), one);
+        const doubles centre_x = Isa::add(Isa::multiply(Isa::load(b.x0.lane), unit), half),
+                      centre_y = Isa::add(Isa::multiply(Isa::load(b.y0.lane), unit), half);
+        for (int i = 0; i < 3; ++i) {
+            const int next = i < 2 ? i + 1 : 0;
+            const doubles dx = Isa::multiply(Isa::subtract(x[next], x[i]), sign),
+                          dy = Isa::multiply(Isa::subtract(y[next], y[i]), sign);
+            const doubles inside = Isa::subtract(Isa::multiply(dx, Isa::subtract(centre_y, y[i])),
+                                                 Isa::multiply(dy, Isa::subtract(centre_x, x[i])));
+            // dy < 0, or dy = 0 and dx > 0, where no dx is as long as 2^14.
+            const doubles owns = Isa::subtract(dx, Isa::multiply(dy, Isa::repeat(0x1p14)));
+            keep(b.edge[i], Isa::add(inside, Isa::smaller(Isa::larger(owns, zero), one)));
+            keep(b.per_column[i], Isa::multiply(dy, Isa::repeat(-256.0)));
+            keep(b.per_row[i], Isa::multiply(dx, unit));
+        }
+        b.narrow &= Isa::greater_bits(turn, zero) | Isa::greater_bits(zero, turn); // without an area there is no centre in it
+    }
+
+    /// detail::depth_surface.
+    GNOMON_LANES_VOID void set_up_depth(batch& b, const projected (&h)[3], const doubles& x, const doubles& y, const job& j) noexcept {
+        const doubles one = Isa::repeat(1.0);
+        const doubles c = j.perspective ? Isa::divide(one, h[0].w) : h[0].z;
+        vectors u[3];
+        doubles rest[3];
+        for (int i = 0; i < 3; ++i) {
+            u[i] = {Isa::subtract(h[i].x, times(x, h[i].w)), Isa::subtract(h[i].y, times(y, h[i].w)), h[i].w};
+            rest[i] = Isa::subtract(j.perspective ? one : h[i].z, times(c, h[i].w));
+        }
+        const vectors u01 = cross(u[0], u[1]), u12 = cross(u[1], u[2]), u20 = cross(u[2], u[0]);
+        const doubles area = sum(times(u[0].x, u12.x), times(u[0].y, u12.y), times(u[0].z, u12.z));
+        const auto solved = [&](const doubles& p, const doubles& q, const doubles& r) {
+            return Isa::divide(sum(times(rest[0], p), times(rest[1], q), times(rest[2], r)), area);
+        };
+        keep(b.x, x);
+        keep(b.y, y);
+        keep(b.a, solved(u12.x, u20.x, u01.x));
+        keep(b.b, solved(u12.y, u20.y, u01.y));
+        keep(b.c, Isa::add(c, solved(u12.z, u20.z, u01.z)));
+        keep(b.at_reference, c);
+        keep(b.nearest, Isa::smaller(h[2].z, Isa::smaller(h[1].z, h[0].z)));
+        keep(b.farthest, Isa::larger(h[2].z, Isa::larger(h[1].z, h[0].z)));
+        keep(b.area, area);
+    }
+
+    static void set_up(batch& b, const job& j) noexcept {
+        const projected h[3] = {project(b, j, 0), project(b, j, 1), project(b, j, 2)};
+        b.plain = uncut(h[0], j) & uncut(h[1], j) & uncut(h[2], j);
+
+        doubles map_x[3], map_y[3], x[3], y[3];
+        for (int i = 0; i < 3; ++i) {
+            map_x[i] = j.divides ? Isa::divide(h[i].x, h[i].w) : h[i].x;
+            map_y[i] = j.divides ? Isa::divide(h[i].y, h[i].w) : h[i].y;
+            // What is cut is drawn elsewhere; here it must only be a number.
+            const doubles reach = Isa::repeat(detail::fixed_point::reach), before = Isa::repeat(-detail::fixed_point::reach);
+            x[i] = snapped(Isa::smaller(Isa::larger(map_x[i], before), reach));
+            y[i] = snapped(Isa::smaller(Isa::larger(map_y[i], before), reach));
+            keep(b.corner_x[i], x[i]);
+            keep(b.corner_y[i], y[i]);
+        }
+        const doubles left = first_centre(Isa::smaller(Isa::smaller(x[0], x[1]), x[2])),
+                      right = first_centre(Isa::larger(Isa::larger(x[0], x[1]), x[2]));
+        const doubles x0 = Isa::larger(left, whole_number(j.target.x0)), x1 = Isa::smaller(right, whole_number(j.target.x1));
+        const doubles y0 = Isa::larger(first_centre(Isa::smaller(Isa::smaller(y[0], y[1]), y[2])), whole_number(j.target.y0)),
+                      y1 = Isa::smaller(first_centre(Isa::larger(Isa::larger(y[0], y[1]), y[2])), whole_number(j.target.y1));
+        keep(b.x0, x0);
+        keep(b.x1, x1);
+        keep(b.y0, y0);
+        keep(b.y1, y1);
+        b.on_target = Isa::greater_bits(x1, x0) & Isa::greater_bits(y1, y0);
+        b.narrow = Isa::greater_bits(Isa::repeat(narrow_columns + 0.5), Isa::subtract(right, left));
+        if ((b.plain & b.on_target) == 0) return;
+        set_up_edges(b, x, y);
+        set_up_depth(b, h, map_x[0], map_y[0], j);
+    }
+
+    [[nodiscard]] static detail::triangle_depth plane_of(const batch& b, const job& j, int k) noexcept {
+        const bool faces = b.area.lane[k] > 0.0 || b.area.lane[k] < 0.0;
+        return {j.perspective,
+                j.near_w,
+                j.per_w,
+                b.x.lane[k],
+                b.y.lane[k],
+                faces ? b.a.lane[k] : 0.0,
+                faces ? b.b.lane[k] : 0.0,
+                faces ? b.c.lane[k] : b.at_reference.lane[k],
+                b.nearest.lane[k],
+                b.farthest.lane[k]};
+    }
+
+    /// detail::triangle_depth, and what of it does not change along a row.
+    struct depth_row {
+        doubles a, x, rest, nearest, farthest, near_w, per_w;
+        bool inverse;
+
+        GNOMON_LANES depth_row of(const detail::triangle_depth& plane, int y) noexcept {
+            const double centre = static_cast<double>(y) + 0.5;
+            return {Isa::repeat(plane.a),
+                    Isa::repeat(plane.x),
+                    Isa::add(times(Isa::repeat(plane.b), Isa::repeat(centre - plane.y)), Isa::repeat(plane.c)),
+                    Isa::repeat(plane.nearest),
+                    Isa::repeat(plane.farthest),
+                    Isa::repeat(plane.near_w),
+                    Isa::repeat(plane.per_w),
+                    plane.inverse};
+        }
+        /// The depths at these centres.
+        GNOMON_LANES_VOID void put(float* to, const depth_row& d, doubles centres) noexcept {
+            doubles z = Isa::add(times(d.a, Isa::subtract(centres, d.x)), d.rest);
+            if (d.inverse) // what is not positive is made so, and comes to be farthest
+                z = times(Isa::subtract(Isa::divide(Isa::repeat(1.0), Isa::larger(z, Isa::repeat(0x1p-1022))), d.near_w), d.per_w);
+            Isa::template store_codes<float32>(to, Isa::smaller(Isa::larger(z, d.nearest), d.farthest));
+        }
+    };
+
+    /// Column numbers from 0 on.
+    GNOMON_LANES doubles columns() noexcept {
+        numbers n;
+        for (int i = 0; i < lanes; ++i) n.lane[i] = i;
+        return Isa::load(n.lane);
+    }
+
+    static void draw_run(const job& j, const detail::triangle_depth& plane, int y, int x0, int x1, light_footprint& touched) {
+        constexpr int most = detail::row_piece;
+        float z[static_cast<std::size_t>(most + lanes)];
+        const depth_row depth = depth_row::of(plane, y);
+        const doubles first = columns();
+        for (int begin = x0; begin < x1; begin += most) {
+            const int end = lesser(x1, begin + most);
+            for (int x = begin; x < end; x += lanes) depth_row::put(z + (x - begin), depth, Isa::add(first, Isa::repeat(x + 0.5)));
+            j.row(j.rows, y, begin, end, z);
+            detail::touch(touched, y, begin, end, z[0], z[end - begin - 1]);
+        }
+    }
+
+    static void draw_wide(const batch& b, const job& j, int k, const texel_rect& around, light_footprint& touched) {
+        detail::fixed_point corners[3];
+        for (int i = 0; i < 3; ++i)
+            corners[i] = {static_cast<std::int64_t>(b.corner_x[i].lane[k]), static_cast<std::int64_t>(b.corner_y[i].lane[k])};
+        const detail::triangle_depth plane = plane_of(b, j, k);
+        detail::scan(corners, 3, around, [&](int y, int x0, int x1) { draw_run(j, plane, y, x0, x1, touched); });
+    }
+
+    static void draw_narrow(const batch& b, const job& j, int k, const texel_rect& around, light_footprint& touched) {
+        constexpr int registers = (narrow_columns + lanes - 1) / lanes;
+        const detail::triangle_depth plane = plane_of(b, j, k);
+        const doubles first = columns(), zero = Isa::repeat(0.0);
+        doubles edge[3], per_row[3], per_register[3];
+        for (int i = 0; i < 3; ++i) {
+            const doubles per_column = Isa::repeat(b.per_column[i].lane[k]);
+            edge[i] = Isa::add(Isa::repeat(b.edge[i].lane[k]), Isa::multiply(first, per_column));
+            per_row[i] = Isa::repeat(b.per_row[i].lane[k]);
+            per_register[i] = Isa::multiply(per_column, whole_number(lanes));
+        }
+        float z[static_cast<std::size_t>(registers * lanes)];
+        for (int y = around.y0; y < around.y1; ++y) {
+            doubles here[3] = {edge[0], edge[1], edge[2]};
+            std::uint64_t inside = 0;
+            for (int x = 0; x < around.width(); x += lanes) {
+                inside |= static_cast<std::uint64_t>(
+                              Isa::greater_bits(Isa::smaller(Isa::smaller(here[0], here[1]), here[2]), zero))
+                          << x;
+                for (int i = 0; i < 3; ++i) here[i] = Isa::add(here[i], per_register[i]);
+            }
+            inside &= ~std::uint64_t{0} >> (64 - around.width());
+            for (int i = 0; i < 3; ++i) edge[i] = Isa::add(edge[i], per_row[i]);
+            if (inside == 0) continue;
+            const int x0 = std::countr_zero(inside), x1 = 64 - std::countl_zero(inside);
+            const depth_row depth = depth_row::of(plane, y);
+            for (int x = x0; x < x1; x += lanes) depth_row::put(z + (x - x0), depth, Isa::add(first, Isa::repeat(around.x0 + x + 0.5)));
+            j.row(j.rows, y, around.x0 + x0, around.x0 + x1, z);
+            detail::touch(touched, y, around.x0 + x0, around.x0 + x1, z[0], z[x1 - x0 - 1]);
+        }
+    }
+
+    static void draw(const batch& b, const job& j, int first, light_footprint& touched) {
+        for (std::uint32_t left = b.here & (b.on_target | ~b.plain); left != 0; left &= left - 1) {
+            const int k = std::countr_zero(left);
+            const auto has = [k](std::uint32_t bits) { return (bits >> k & 1) != 0; };
+            if (!has(b.plain)) {
+                j.cut(j, first + 3 * k, touched);
+                continue;
+            }
+            const auto as_int = [k](const numbers& n) { return static_cast<int>(n.lane[k]); };
+            const texel_rect around{as_int(b.x0), as_int(b.y0), as_int(b.x1), as_int(b.y1)};
+            if (!j.takes_part(around, b.area.lane[k])) continue;
+            if (has(b.narrow))
+                draw_narrow(b, j, k, around, touched);
+            else
+                draw_wide(b, j, k, around, touched);
+        }
+    }
+
+    static void fill(batch& b, const triangle_mesh& mesh, int first) noexcept {
+        b.here = 0;
+        const auto positions = static_cast<std::uint32_t>(mesh.positions.size());
+        for (int k = 0; k < lanes && first + 3 * k + 2 < mesh.indices.size(); ++k) {
+            std::uint32_t index[3];
+            bool known = true;
+            for (int i = 0; i < 3; ++i) known = (index[i] = mesh.indices[first + 3 * k + i]) < positions && known;
+            if (!known) continue;
+            b.here |= 1u << k;
+            for (int i = 0; i < 3; ++i) {
+                const auto& p = mesh.positions[static_cast<int>(index[i])];
+                b.position[3 * i][k] = p.x;
+                b.position[3 * i + 1][k] = p.y;
+                b.position[3 * i + 2][k] = p.z;
+            }
+        }
+    }
+
+    static light_footprint run(const job& j) {
+        light_footprint touched;
+        batch b;
+        for (int first = 0; first + 2 < j.mesh->indices.size(); first += 3 * lanes) {
+            fill(b, *j.mesh, first);
+            set_up(b, j);
+            draw(b, j, first, touched);
+        }
+        return touched;
+    }
+};
+
+/// Encodes depths and casts them: a `row` of a raster_job.
+template <typename Isa, texel_format Texel> struct row_of_texels {
+    using channel_type = typename Texel::channel_type;
+    using representation_type = typename Texel::representation_type;
+    using storage = typename Texel::storage;
+    using doubles = typename Isa::doubles;
+    using target = detail::texel_target<Texel>;
+
+    /// depth_mask::encode, in lanes.
+    GNOMON_LANES_VOID void encode(storage* to, const float* z) noexcept {
+        const doubles one = Isa::repeat(1.0), reversed = Isa::subtract(one, Isa::template codes<float32>(z));
+        doubles code = Isa::smaller(Isa::larger(reversed, Isa::repeat(0.0)), one);
+        if constexpr (channel_type::whole_codes) {
+            code = Isa::multiply(code, Isa::repeat(static_cast<double>(channel_type::scale)));
+            Isa::settle(code);
+            code = Isa::add(code, Isa::repeat(0.5));
+        }
+        Isa::template store_codes<channel_type>(to, code);
+    }
+    static void cast(void* object, int y, int x0, int x1, const float* z) noexcept {
+        const target& to = *static_cast<const target*>(object);
+        storage code[static_cast<std::size_t>(detail::row_piece + Isa::double_lanes)];
+        for (int i = 0; i < x1 - x0; i += Isa::double_lanes) encode(code + i, z + i);
+        Texel* const row = to.texels.row(y) + x0;
+        Texel caster = to.caster;
+        for (int i = 0; i < x1 - x0; ++i) {
+            caster.stored[Texel::depth_index] = code[i];
+            row[i].cast(caster);
+        }
+    }
+    static void bound(void* object, int y, int x0, int x1, const float* z) noexcept {
+        const target& to = *static_cast<const target*>(object);
+        storage code[static_cast<std::size_t>(detail::row_piece + Isa::double_lanes)];
+        for (int i = 0; i < x1 - x0; i += Isa::double_lanes) encode(code + i, z + i);
+        Texel* const row = to.texels.row(y) + x0;
+        for (int i = 0; i < x1 - x0; ++i)
+            if (z[i] >= 0.0f && !representation_type::nearer(code[i], row[i].stored[Texel::depth_index]) &&
+                representation_type::nearer(code[i], row[i].stored[Texel::far_index]))
+                row[i].stored[Texel::far_index] = code[i];
+    }
+};
+
+} // namespace gnomon::GNOMON_ON
+#endif
