@@ -27,9 +27,9 @@ struct raster_job {
     bool (*touches)(const void* where, texel_rect around); ///< null: always
     const void* where;
     /// Draws a triangle that planes may cut.
-    void (*cut)(const raster_job& job, int first, light_footprint& touched);
+    void (*cut)(const raster_job& job, int first, touched_texels& touched);
     /// Draws a run in lanes.
-    void (*run)(const raster_job& job, const triangle_depth& depth, int y, int x0, int x1, light_footprint& touched);
+    void (*run)(const raster_job& job, const triangle_depth& depth, int y, int x0, int x1, touched_texels& touched);
 
     [[nodiscard]] bool operator()(texel_rect around) const { return touches == nullptr || touches(where, around); }
     [[nodiscard]] bool takes_part(texel_rect around, double area) const {

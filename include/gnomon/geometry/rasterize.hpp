@@ -77,6 +77,12 @@ struct projected_polygon {
     /// Cuts off what a spot light's near plane hides, and what is farther off the map than fixed_point can say.
     void keep_drawable(bool near_plane_cuts) noexcept {
         constexpr double reach = fixed_point::reach;
+        bool uncut = true; // and that most are, the half of this octahedron tells sooner
+        for (int i = 0; i < count; ++i) {
+            const glm::dvec4& h = corner[i];
+            uncut = reach * h.w - std::abs(h.x) - (std::abs(h.y) + h.z * 0.0) > 0.0 && (!near_plane_cuts || h.z > 0.0) && uncut;
+        }
+        if (uncut) return;
         if (near_plane_cuts) keep_above({0.0, 0.0, 1.0, 0.0});
         keep_above({1.0, 0.0, 0.0, reach});
         keep_above({-1.0, 0.0, 0.0, reach});
@@ -166,12 +172,21 @@ class depth_surface {
     return side == faces::both || towards == (side == faces::lit_side);
 }
 
-/// Adds a run of texels, and the depths at its two ends, to what was touched. Depth is monotone along a row.
-constexpr void touch(light_footprint& touched, int y, int x0, int x1, float first, float last) noexcept {
-    const float one = saturate(first), other = saturate(last);
-    touched.texels = union_box(touched.texels, {x0, y, x1, y + 1});
-    touched.depth.include({lesser(one, other), greater(one, other)});
-}
+/// The box around runs of texels, and around the depths at their ends: along a row depth is monotone.
+struct touched_texels {
+    texel_rect box{int_max, int_max, -int_max, -int_max};
+    float nearest = std::numeric_limits<float>::infinity(), farthest = -nearest;
+
+    constexpr void add(int y, int x0, int x1, float first, float last) noexcept {
+        box = {lesser(box.x0, x0), lesser(box.y0, y), greater(box.x1, x1), greater(box.y1, y + 1)};
+        nearest = lesser(nearest, lesser(first, last));
+        farthest = greater(farthest, greater(first, last));
+    }
+    [[nodiscard]] constexpr light_footprint footprint() const noexcept {
+        if (box.empty()) return {};
+        return {box, {saturate(nearest), saturate(farthest)}};
+    }
+};
 
 template <marked_texels Where> [[nodiscard]] constexpr bool touches(const Where& where, texel_rect r) {
     if constexpr (requires { where.touches(r); })
@@ -213,19 +228,22 @@ template <typename Sink, marked_texels Where = touches_everything>
     requires requires(Sink& sink, int i, float depth) { sink(i, i, depth); }
 light_footprint rasterize(const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side, Sink&& sink,
                           const Where& where = {}) {
-    light_footprint touched;
     target = clip(target, light.size());
-    if (target.empty()) return touched; // so is an invalid frame's
+    if (target.empty()) return {}; // so is an invalid frame's
     const glm::dmat4 to_map = light.matrix() * mesh.model;
     const double handedness = detail::volume(to_map);
 
+    detail::touched_texels touched;
     const auto run = [&](const detail::triangle_depth& depth, int y, int x0, int x1) {
-        for (int x = x0; x < x1; ++x) sink(x, y, depth(x, y));
-        detail::touch(touched, y, x0, x1, depth(x0, y), depth(x1 - 1, y));
+        const float first = depth(x0, y);
+        float last = first;
+        sink(x0, y, first);
+        for (int x = x0 + 1; x < x1; ++x) sink(x, y, last = depth(x, y));
+        touched.add(y, x0, x1, first, last);
     };
     for (int first = 0; first + 2 < mesh.indices.size(); first += 3)
         detail::draw_triangle(mesh, first, to_map, handedness, light, target, side, where, run);
-    return touched;
+    return touched.footprint();
 }
 
 /// Casts triangles into a map: `tiles.mark(cast_triangles(texels, mesh, light).texels, guard)`. Texel (0, 0) is that of the map.

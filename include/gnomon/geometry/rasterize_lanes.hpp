@@ -27,16 +27,22 @@ namespace detail {
 /// Each target's code goes by its own name.
 template <typename Isa> struct raster_on {
     using triangles = on_any::rasterizer<Isa>;
-    template <typename Texel> using row = on_any::row_of_texels<Isa, Texel>;
+    using called = on_any::called_row;
+    template <typename Texel> using cast = on_any::cast_row<Isa, Texel>;
+    template <typename Texel> using bound = on_any::bound_row<Isa, Texel>;
 };
 #if GNOMON_X86
 template <> struct raster_on<avx2> {
     using triangles = on_avx2::rasterizer<avx2>;
-    template <typename Texel> using row = on_avx2::row_of_texels<avx2, Texel>;
+    using called = on_avx2::called_row;
+    template <typename Texel> using cast = on_avx2::cast_row<avx2, Texel>;
+    template <typename Texel> using bound = on_avx2::bound_row<avx2, Texel>;
 };
 template <> struct raster_on<avx512> {
     using triangles = on_avx512::rasterizer<avx512>;
-    template <typename Texel> using row = on_avx512::row_of_texels<avx512, Texel>;
+    using called = on_avx512::called_row;
+    template <typename Texel> using cast = on_avx512::cast_row<avx512, Texel>;
+    template <typename Texel> using bound = on_avx512::bound_row<avx512, Texel>;
 };
 #endif
 
@@ -53,15 +59,15 @@ template <typename Isa, typename Texel>
 inline constexpr bool cast_in_lanes = has_lanes<Isa> && channel_of_lanes<typename Texel::channel_type> &&
                                       std::same_as<typename Texel::representation_type, depth_mask>;
 
-inline void draw_cut(const raster_job& job, int first, light_footprint& touched) {
+inline void draw_cut(const raster_job& job, int first, touched_texels& touched) {
     draw_triangle(*job.mesh, first, job.to_map, job.handedness, *job.light, job.target, job.side, job,
                   [&](const triangle_depth& depth, int y, int x0, int x1) { job.run(job, depth, y, x0, x1, touched); });
 }
 
-/// `row` is called with `rows` for every piece of a row.
-template <typename Isa, typename Where>
+/// `of` says which rows: of.template operator()<Lanes>() is one of the kinds of raster_on<Lanes>. They read what `rows` points to.
+template <typename Isa, typename Where, typename Of>
 light_footprint rasterize_rows(const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side,
-                               void (*row)(void*, int, int, int, const float*), void* rows, const Where& where) {
+                               const Where& where, void* rows, void (*row)(void*, int, int, int, const float*), const Of& of) {
     target = clip(target, light.size());
     if (target.empty()) return {};
     const glm::dmat4 to_map = light.matrix() * mesh.model;
@@ -83,9 +89,11 @@ light_footprint rasterize_rows(const triangle_mesh& mesh, const light_frame& lig
                    .run = nullptr};
     if constexpr (!std::same_as<Where, touches_everything>)
         job.touches = [](const void* marks, texel_rect r) { return touches(*static_cast<const Where*>(marks), r); };
-    const auto draw = for_lanes<Isa>([&job]<typename Lanes>() {
-        job.run = raster_on<Lanes>::triangles::draw_run;
-        return &raster_on<Lanes>::triangles::run;
+    const auto draw = for_lanes<Isa>([&]<typename Lanes>() {
+        using triangles = typename raster_on<Lanes>::triangles;
+        using row_kind = decltype(of.template operator()<Lanes>());
+        job.run = triangles::template draw_run<row_kind>;
+        return &triangles::template run<row_kind>;
     });
     return draw(job);
 }
@@ -103,7 +111,8 @@ light_footprint rasterize(simd<Isa>, const triangle_mesh& mesh, const light_fram
             for (int x = x0; x < x1; ++x) (**static_cast<sink_type**>(object))(x, y, z[x - x0]);
         };
         sink_type* object = &sink;
-        return detail::rasterize_rows<Isa>(mesh, light, target, side, row, &object, where);
+        return detail::rasterize_rows<Isa>(mesh, light, target, side, where, &object, row,
+                                           []<typename Lanes>() { return typename detail::raster_on<Lanes>::called{}; });
     } else {
         return rasterize(mesh, light, target, side, sink, where);
     }
@@ -115,8 +124,9 @@ light_footprint cast_triangles(simd<Isa> run, image_view<Texel> texels, const tr
                                faces side = faces::both) {
     if constexpr (detail::cast_in_lanes<Isa, Texel>) {
         detail::texel_target<Texel> target{texels, Texel::caster(0.0f)};
-        const auto row = detail::for_lanes<Isa>([]<typename Lanes>() { return &detail::raster_on<Lanes>::template row<Texel>::cast; });
-        return detail::rasterize_rows<Isa>(mesh, light, whole(texels.size()), side, row, &target, touches_everything{});
+        return detail::rasterize_rows<Isa>(mesh, light, whole(texels.size()), side, touches_everything{}, &target, nullptr, []<typename Lanes>() {
+            return typename detail::raster_on<Lanes>::template cast<Texel>{};
+        });
     } else {
         return rasterize(run, mesh, light, whole(texels.size()), side,
                          [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s)); });
@@ -130,8 +140,9 @@ light_footprint cast_triangles(simd<Isa> run, image_view<Texel> texels, const tr
                                float opacity, faces side = faces::both) {
     if constexpr (detail::cast_in_lanes<Isa, Texel>) {
         detail::texel_target<Texel> target{texels, Texel::caster(0.0f, opacity)};
-        const auto row = detail::for_lanes<Isa>([]<typename Lanes>() { return &detail::raster_on<Lanes>::template row<Texel>::cast; });
-        return detail::rasterize_rows<Isa>(mesh, light, whole(texels.size()), side, row, &target, touches_everything{});
+        return detail::rasterize_rows<Isa>(mesh, light, whole(texels.size()), side, touches_everything{}, &target, nullptr, []<typename Lanes>() {
+            return typename detail::raster_on<Lanes>::template cast<Texel>{};
+        });
     } else {
         return rasterize(run, mesh, light, whole(texels.size()), side,
                          [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s, opacity)); });
@@ -145,8 +156,9 @@ light_footprint bound_triangles(simd<Isa> run, image_view<Texel> texels, const t
                                 faces side = faces::both, const Where& where = {}, texel_rect region = everywhere) {
     if constexpr (detail::cast_in_lanes<Isa, Texel>) {
         detail::texel_target<Texel> target{texels, Texel::clear()};
-        const auto row = detail::for_lanes<Isa>([]<typename Lanes>() { return &detail::raster_on<Lanes>::template row<Texel>::bound; });
-        return detail::rasterize_rows<Isa>(mesh, light, clip(region, texels.size()), side, row, &target, where);
+        return detail::rasterize_rows<Isa>(mesh, light, clip(region, texels.size()), side, where, &target, nullptr, []<typename Lanes>() {
+            return typename detail::raster_on<Lanes>::template bound<Texel>{};
+        });
     } else {
         const auto bound = [&](int x, int y, float z) {
             if (z >= 0.0f) texels(x, y).bound(z);

@@ -175,7 +175,7 @@ template <typename Isa> struct rasterizer {
         set_up_depth(b, h, map_x[0], map_y[0], j);
     }
 
-    [[nodiscard]] static detail::triangle_depth plane_of(const batch& b, const job& j, int k) noexcept {
+    [[nodiscard]] static detail::triangle_depth depth_of(const batch& b, const job& j, int k) noexcept {
         const bool faces = b.area.lane[k] > 0.0 || b.area.lane[k] < 0.0;
         return {j.perspective,
                 j.near_w,
@@ -189,67 +189,66 @@ template <typename Isa> struct rasterizer {
                 b.farthest.lane[k]};
     }
 
-    /// detail::triangle_depth, and what of it does not change along a row.
-    struct depth_row {
-        doubles a, x, rest, nearest, farthest, near_w, per_w;
+    /// detail::triangle_depth for as many columns as there are lanes.
+    struct depths {
+        doubles a, x, b, c, nearest, farthest, near_w, per_w, columns;
+        double y;
         bool inverse;
 
-        GNOMON_LANES depth_row of(const detail::triangle_depth& plane, int y) noexcept {
-            const double centre = static_cast<double>(y) + 0.5;
-            return {Isa::repeat(plane.a),
-                    Isa::repeat(plane.x),
-                    Isa::add(times(Isa::repeat(plane.b), Isa::repeat(centre - plane.y)), Isa::repeat(plane.c)),
-                    Isa::repeat(plane.nearest),
-                    Isa::repeat(plane.farthest),
-                    Isa::repeat(plane.near_w),
-                    Isa::repeat(plane.per_w),
-                    plane.inverse};
+        GNOMON_LANES depths of(const detail::triangle_depth& d) noexcept {
+            return {Isa::repeat(d.a),      Isa::repeat(d.x),     Isa::repeat(d.b),  Isa::repeat(d.c), Isa::repeat(d.nearest),
+                    Isa::repeat(d.farthest), Isa::repeat(d.near_w), Isa::repeat(d.per_w), columns_from_0(), d.y, d.inverse};
         }
-        /// The depths at these centres.
-        GNOMON_LANES_VOID void put(float* to, const depth_row& d, doubles centres) noexcept {
-            doubles z = Isa::add(times(d.a, Isa::subtract(centres, d.x)), d.rest);
+        GNOMON_LANES doubles on_row(const depths& d, int y) noexcept {
+            return Isa::add(times(d.b, Isa::repeat(static_cast<double>(y) + 0.5 - d.y)), d.c);
+        }
+        /// From column `x` on.
+        GNOMON_LANES_VOID void put(float* to, const depths& d, doubles on_row, int x) noexcept {
+            const doubles centres = Isa::add(d.columns, Isa::repeat(static_cast<double>(x) + 0.5));
+            doubles z = Isa::add(times(d.a, Isa::subtract(centres, d.x)), on_row);
             if (d.inverse) // what is not positive is made so, and comes to be farthest
                 z = times(Isa::subtract(Isa::divide(Isa::repeat(1.0), Isa::larger(z, Isa::repeat(0x1p-1022))), d.near_w), d.per_w);
             Isa::template store_codes<float32>(to, Isa::smaller(Isa::larger(z, d.nearest), d.farthest));
         }
     };
-
-    /// Column numbers from 0 on.
-    GNOMON_LANES doubles columns() noexcept {
+    GNOMON_LANES doubles columns_from_0() noexcept {
         numbers n;
         for (int i = 0; i < lanes; ++i) n.lane[i] = i;
         return Isa::load(n.lane);
     }
 
-    static void draw_run(const job& j, const detail::triangle_depth& plane, int y, int x0, int x1, light_footprint& touched) {
+    template <typename Row>
+    static void draw_run(const job& j, const detail::triangle_depth& depth, int y, int x0, int x1, detail::touched_texels& touched) {
         constexpr int most = detail::row_piece;
         float z[static_cast<std::size_t>(most + lanes)];
-        const depth_row depth = depth_row::of(plane, y);
-        const doubles first = columns();
+        const depths d = depths::of(depth);
+        const doubles on_row = depths::on_row(d, y);
         for (int begin = x0; begin < x1; begin += most) {
             const int end = lesser(x1, begin + most);
-            for (int x = begin; x < end; x += lanes) depth_row::put(z + (x - begin), depth, Isa::add(first, Isa::repeat(x + 0.5)));
-            j.row(j.rows, y, begin, end, z);
-            detail::touch(touched, y, begin, end, z[0], z[end - begin - 1]);
+            for (int x = begin; x < end; x += lanes) depths::put(z + (x - begin), d, on_row, x);
+            Row::draw(j, y, begin, end, z);
+            touched.add(y, begin, end, z[0], z[end - begin - 1]);
         }
     }
 
-    static void draw_wide(const batch& b, const job& j, int k, const texel_rect& around, light_footprint& touched) {
+    template <typename Row>
+    static void draw_wide(const batch& b, const job& j, int k, const texel_rect& around, detail::touched_texels& touched) {
         detail::fixed_point corners[3];
         for (int i = 0; i < 3; ++i)
             corners[i] = {static_cast<std::int64_t>(b.corner_x[i].lane[k]), static_cast<std::int64_t>(b.corner_y[i].lane[k])};
-        const detail::triangle_depth plane = plane_of(b, j, k);
-        detail::scan(corners, 3, around, [&](int y, int x0, int x1) { draw_run(j, plane, y, x0, x1, touched); });
+        const detail::triangle_depth depth = depth_of(b, j, k);
+        detail::scan(corners, 3, around, [&](int y, int x0, int x1) { draw_run<Row>(j, depth, y, x0, x1, touched); });
     }
 
-    static void draw_narrow(const batch& b, const job& j, int k, const texel_rect& around, light_footprint& touched) {
+    template <typename Row>
+    static void draw_narrow(const batch& b, const job& j, int k, const texel_rect& around, detail::touched_texels& touched) {
         constexpr int registers = (narrow_columns + lanes - 1) / lanes;
-        const detail::triangle_depth plane = plane_of(b, j, k);
-        const doubles first = columns(), zero = Isa::repeat(0.0);
+        const depths d = depths::of(depth_of(b, j, k));
+        const doubles zero = Isa::repeat(0.0);
         doubles edge[3], per_row[3], per_register[3];
         for (int i = 0; i < 3; ++i) {
             const doubles per_column = Isa::repeat(b.per_column[i].lane[k]);
-            edge[i] = Isa::add(Isa::repeat(b.edge[i].lane[k]), Isa::multiply(first, per_column));
+            edge[i] = Isa::add(Isa::repeat(b.edge[i].lane[k]), Isa::multiply(d.columns, per_column));
             per_row[i] = Isa::repeat(b.per_row[i].lane[k]);
             per_register[i] = Isa::multiply(per_column, whole_number(lanes));
         }
@@ -266,15 +265,15 @@ template <typename Isa> struct rasterizer {
             inside &= ~std::uint64_t{0} >> (64 - around.width());
             for (int i = 0; i < 3; ++i) edge[i] = Isa::add(edge[i], per_row[i]);
             if (inside == 0) continue;
-            const int x0 = std::countr_zero(inside), x1 = 64 - std::countl_zero(inside);
-            const depth_row depth = depth_row::of(plane, y);
-            for (int x = x0; x < x1; x += lanes) depth_row::put(z + (x - x0), depth, Isa::add(first, Isa::repeat(around.x0 + x + 0.5)));
-            j.row(j.rows, y, around.x0 + x0, around.x0 + x1, z);
-            detail::touch(touched, y, around.x0 + x0, around.x0 + x1, z[0], z[x1 - x0 - 1]);
+            const int x0 = around.x0 + std::countr_zero(inside), x1 = around.x0 + 64 - std::countl_zero(inside);
+            const doubles on_row = depths::on_row(d, y);
+            for (int x = x0; x < x1; x += lanes) depths::put(z + (x - x0), d, on_row, x);
+            Row::draw(j, y, x0, x1, z);
+            touched.add(y, x0, x1, z[0], z[x1 - x0 - 1]);
         }
     }
 
-    static void draw(const batch& b, const job& j, int first, light_footprint& touched) {
+    template <typename Row> static void draw(const batch& b, const job& j, int first, detail::touched_texels& touched) {
         for (std::uint32_t left = b.here & (b.on_target | ~b.plain); left != 0; left &= left - 1) {
             const int k = std::countr_zero(left);
             const auto has = [k](std::uint32_t bits) { return (bits >> k & 1) != 0; };
@@ -286,9 +285,9 @@ template <typename Isa> struct rasterizer {
             const texel_rect around{as_int(b.x0), as_int(b.y0), as_int(b.x1), as_int(b.y1)};
             if (!j.takes_part(around, b.area.lane[k])) continue;
             if (has(b.narrow))
-                draw_narrow(b, j, k, around, touched);
+                draw_narrow<Row>(b, j, k, around, touched);
             else
-                draw_wide(b, j, k, around, touched);
+                draw_wide<Row>(b, j, k, around, touched);
         }
     }
 
@@ -310,25 +309,30 @@ template <typename Isa> struct rasterizer {
         }
     }
 
-    static light_footprint run(const job& j) {
-        light_footprint touched;
+    template <typename Row> static light_footprint run(const job& j) {
+        detail::touched_texels touched;
         batch b;
         for (int first = 0; first + 2 < j.mesh->indices.size(); first += 3 * lanes) {
             fill(b, *j.mesh, first);
             set_up(b, j);
-            draw(b, j, first, touched);
+            draw<Row>(b, j, first, touched);
         }
-        return touched;
+        return touched.footprint();
     }
 };
 
-/// Encodes depths and casts them: a `row` of a raster_job.
+/// What takes the depths of a piece of a row: the caller's function.
+struct called_row {
+    static void draw(const detail::raster_job& j, int y, int x0, int x1, const float* z) { j.row(j.rows, y, x0, x1, z); }
+};
+
+/// Depths as a texel stores them.
 template <typename Isa, texel_format Texel> struct row_of_texels {
     using channel_type = typename Texel::channel_type;
-    using representation_type = typename Texel::representation_type;
     using storage = typename Texel::storage;
     using doubles = typename Isa::doubles;
-    using target = detail::texel_target<Texel>;
+
+    storage code[static_cast<std::size_t>(detail::row_piece + Isa::double_lanes)];
 
     /// depth_mask::encode, in lanes.
     GNOMON_LANES_VOID void encode(storage* to, const float* z) noexcept {
@@ -341,26 +345,34 @@ template <typename Isa, texel_format Texel> struct row_of_texels {
         }
         Isa::template store_codes<channel_type>(to, code);
     }
-    static void cast(void* object, int y, int x0, int x1, const float* z) noexcept {
-        const target& to = *static_cast<const target*>(object);
-        storage code[static_cast<std::size_t>(detail::row_piece + Isa::double_lanes)];
-        for (int i = 0; i < x1 - x0; i += Isa::double_lanes) encode(code + i, z + i);
+    explicit row_of_texels(const float* z, int count) noexcept {
+        for (int i = 0; i < count; i += Isa::double_lanes) encode(code + i, z + i);
+    }
+};
+
+template <typename Isa, texel_format Texel> struct cast_row {
+    static void draw(const detail::raster_job& j, int y, int x0, int x1, const float* z) noexcept {
+        const auto& to = *static_cast<const detail::texel_target<Texel>*>(j.rows);
+        const row_of_texels<Isa, Texel> from(z, x1 - x0);
         Texel* const row = to.texels.row(y) + x0;
         Texel caster = to.caster;
         for (int i = 0; i < x1 - x0; ++i) {
-            caster.stored[Texel::depth_index] = code[i];
+            caster.stored[Texel::depth_index] = from.code[i];
             row[i].cast(caster);
         }
     }
-    static void bound(void* object, int y, int x0, int x1, const float* z) noexcept {
-        const target& to = *static_cast<const target*>(object);
-        storage code[static_cast<std::size_t>(detail::row_piece + Isa::double_lanes)];
-        for (int i = 0; i < x1 - x0; i += Isa::double_lanes) encode(code + i, z + i);
+};
+
+template <typename Isa, texel_format Texel> struct bound_row {
+    static void draw(const detail::raster_job& j, int y, int x0, int x1, const float* z) noexcept {
+        using representation_type = typename Texel::representation_type;
+        const auto& to = *static_cast<const detail::texel_target<Texel>*>(j.rows);
+        const row_of_texels<Isa, Texel> from(z, x1 - x0);
         Texel* const row = to.texels.row(y) + x0;
         for (int i = 0; i < x1 - x0; ++i)
-            if (z[i] >= 0.0f && !representation_type::nearer(code[i], row[i].stored[Texel::depth_index]) &&
-                representation_type::nearer(code[i], row[i].stored[Texel::far_index]))
-                row[i].stored[Texel::far_index] = code[i];
+            if (z[i] >= 0.0f && !representation_type::nearer(from.code[i], row[i].stored[Texel::depth_index]) &&
+                representation_type::nearer(from.code[i], row[i].stored[Texel::far_index]))
+                row[i].stored[Texel::far_index] = from.code[i];
     }
 };
 
