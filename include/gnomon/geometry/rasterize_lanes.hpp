@@ -27,20 +27,20 @@ namespace detail {
 /// Each target's code goes by its own name.
 template <typename Isa> struct raster_on {
     using triangles = on_any::rasterizer<Isa>;
-    using called = on_any::called_row;
+    using called = on_any::called_row<Isa>;
     template <typename Texel> using cast = on_any::cast_row<Isa, Texel>;
     template <typename Texel> using bound = on_any::bound_row<Isa, Texel>;
 };
 #if GNOMON_X86
 template <> struct raster_on<avx2> {
     using triangles = on_avx2::rasterizer<avx2>;
-    using called = on_avx2::called_row;
+    using called = on_avx2::called_row<avx2>;
     template <typename Texel> using cast = on_avx2::cast_row<avx2, Texel>;
     template <typename Texel> using bound = on_avx2::bound_row<avx2, Texel>;
 };
 template <> struct raster_on<avx512> {
     using triangles = on_avx512::rasterizer<avx512>;
-    using called = on_avx512::called_row;
+    using called = on_avx512::called_row<avx512>;
     template <typename Texel> using cast = on_avx512::cast_row<avx512, Texel>;
     template <typename Texel> using bound = on_avx512::bound_row<avx512, Texel>;
 };
@@ -91,7 +91,7 @@ light_footprint rasterize_rows(const triangle_mesh& mesh, const light_frame& lig
         job.touches = [](const void* marks, texel_rect r) { return touches(*static_cast<const Where*>(marks), r); };
     const auto draw = for_lanes<Isa>([&]<typename Lanes>() {
         using triangles = typename raster_on<Lanes>::triangles;
-        using row_kind = decltype(of.template operator()<Lanes>());
+        using row_kind = typename decltype(of.template operator()<Lanes>())::type;
         job.run = triangles::template draw_run<row_kind>;
         return &triangles::template run<row_kind>;
     });
@@ -112,7 +112,7 @@ light_footprint rasterize(simd<Isa>, const triangle_mesh& mesh, const light_fram
         };
         sink_type* object = &sink;
         return detail::rasterize_rows<Isa>(mesh, light, target, side, where, &object, row,
-                                           []<typename Lanes>() { return typename detail::raster_on<Lanes>::called{}; });
+                                           []<typename Lanes>() { return std::type_identity<typename detail::raster_on<Lanes>::called>{}; });
     } else {
         return rasterize(mesh, light, target, side, sink, where);
     }
@@ -125,7 +125,7 @@ light_footprint cast_triangles(simd<Isa> run, image_view<Texel> texels, const tr
     if constexpr (detail::cast_in_lanes<Isa, Texel>) {
         detail::texel_target<Texel> target{texels, Texel::caster(0.0f)};
         return detail::rasterize_rows<Isa>(mesh, light, whole(texels.size()), side, touches_everything{}, &target, nullptr, []<typename Lanes>() {
-            return typename detail::raster_on<Lanes>::template cast<Texel>{};
+            return std::type_identity<typename detail::raster_on<Lanes>::template cast<Texel>>{};
         });
     } else {
         return rasterize(run, mesh, light, whole(texels.size()), side,
@@ -141,7 +141,7 @@ light_footprint cast_triangles(simd<Isa> run, image_view<Texel> texels, const tr
     if constexpr (detail::cast_in_lanes<Isa, Texel>) {
         detail::texel_target<Texel> target{texels, Texel::caster(0.0f, opacity)};
         return detail::rasterize_rows<Isa>(mesh, light, whole(texels.size()), side, touches_everything{}, &target, nullptr, []<typename Lanes>() {
-            return typename detail::raster_on<Lanes>::template cast<Texel>{};
+            return std::type_identity<typename detail::raster_on<Lanes>::template cast<Texel>>{};
         });
     } else {
         return rasterize(run, mesh, light, whole(texels.size()), side,
@@ -157,7 +157,7 @@ light_footprint bound_triangles(simd<Isa> run, image_view<Texel> texels, const t
     if constexpr (detail::cast_in_lanes<Isa, Texel>) {
         detail::texel_target<Texel> target{texels, Texel::clear()};
         return detail::rasterize_rows<Isa>(mesh, light, clip(region, texels.size()), side, where, &target, nullptr, []<typename Lanes>() {
-            return typename detail::raster_on<Lanes>::template bound<Texel>{};
+            return std::type_identity<typename detail::raster_on<Lanes>::template bound<Texel>>{};
         });
     } else {
         const auto bound = [&](int x, int y, float z) {

@@ -203,12 +203,12 @@ template <typename Isa> struct rasterizer {
             return Isa::add(times(d.b, Isa::repeat(static_cast<double>(y) + 0.5 - d.y)), d.c);
         }
         /// From column `x` on.
-        GNOMON_LANES_VOID void put(float* to, const depths& d, doubles on_row, int x) noexcept {
+        GNOMON_LANES doubles put(float* to, const depths& d, doubles on_row, int x) noexcept {
             const doubles centres = Isa::add(d.columns, Isa::repeat(static_cast<double>(x) + 0.5));
             doubles z = Isa::add(times(d.a, Isa::subtract(centres, d.x)), on_row);
             if (d.inverse) // what is not positive is made so, and comes to be farthest
                 z = times(Isa::subtract(Isa::divide(Isa::repeat(1.0), Isa::larger(z, Isa::repeat(0x1p-1022))), d.near_w), d.per_w);
-            Isa::template store_codes<float32>(to, Isa::smaller(Isa::larger(z, d.nearest), d.farthest));
+            return Isa::store_floats(to, Isa::smaller(Isa::larger(z, d.nearest), d.farthest));
         }
     };
     GNOMON_LANES doubles columns_from_0() noexcept {
@@ -217,18 +217,26 @@ template <typename Isa> struct rasterizer {
         return Isa::load(n.lane);
     }
 
+    /// A piece of a row, whose depths go to `z` too.
+    template <typename Row>
+    GNOMON_LANES_VOID void draw_piece(const job& j, const depths& d, doubles on_row, int y, int x0, int x1, float* z,
+                                      detail::touched_texels& touched) {
+        Row row(j, y, x0);
+        for (int x = x0; x < x1; x += lanes) {
+            const doubles depth = depths::put(z + (x - x0), d, on_row, x);
+            row.take(x - x0, x1 - x, depth);
+        }
+        row.finish(y, x0, x1, z);
+        touched.add(y, x0, x1, z[0], z[x1 - x0 - 1]);
+    }
+
     template <typename Row>
     static void draw_run(const job& j, const detail::triangle_depth& depth, int y, int x0, int x1, detail::touched_texels& touched) {
         constexpr int most = detail::row_piece;
         float z[static_cast<std::size_t>(most + lanes)];
         const depths d = depths::of(depth);
         const doubles on_row = depths::on_row(d, y);
-        for (int begin = x0; begin < x1; begin += most) {
-            const int end = lesser(x1, begin + most);
-            for (int x = begin; x < end; x += lanes) depths::put(z + (x - begin), d, on_row, x);
-            Row::draw(j, y, begin, end, z);
-            touched.add(y, begin, end, z[0], z[end - begin - 1]);
-        }
+        for (int x = x0; x < x1; x += most) draw_piece<Row>(j, d, on_row, y, x, lesser(x1, x + most), z, touched);
     }
 
     template <typename Row>
@@ -266,10 +274,7 @@ template <typename Isa> struct rasterizer {
             for (int i = 0; i < 3; ++i) edge[i] = Isa::add(edge[i], per_row[i]);
             if (inside == 0) continue;
             const int x0 = around.x0 + std::countr_zero(inside), x1 = around.x0 + 64 - std::countl_zero(inside);
-            const doubles on_row = depths::on_row(d, y);
-            for (int x = x0; x < x1; x += lanes) depths::put(z + (x - x0), d, on_row, x);
-            Row::draw(j, y, x0, x1, z);
-            touched.add(y, x0, x1, z[0], z[x1 - x0 - 1]);
+            draw_piece<Row>(j, d, depths::on_row(d, y), y, x0, x1, z, touched);
         }
     }
 
@@ -321,58 +326,83 @@ template <typename Isa> struct rasterizer {
     }
 };
 
-/// What takes the depths of a piece of a row: the caller's function.
-struct called_row {
-    static void draw(const detail::raster_job& j, int y, int x0, int x1, const float* z) { j.row(j.rows, y, x0, x1, z); }
+/// What takes the depths of a piece of a row: registers of them by `take`, `left` columns from there on; then the whole by `finish`.
+/// Here, the caller's function.
+template <typename Isa> struct called_row {
+    const detail::raster_job& job;
+
+    called_row(const detail::raster_job& j, int, int) noexcept : job(j) {}
+    GNOMON_LANES_VOID void take(int, int, typename Isa::doubles) noexcept {}
+    void finish(int y, int x0, int x1, const float* z) const { job.row(job.rows, y, x0, x1, z); }
 };
 
-/// Depths as a texel stores them.
-template <typename Isa, texel_format Texel> struct row_of_texels {
+/// Depths as texels store them.
+template <typename Isa, texel_format Texel> struct encoded {
     using channel_type = typename Texel::channel_type;
-    using storage = typename Texel::storage;
     using doubles = typename Isa::doubles;
 
-    storage code[static_cast<std::size_t>(detail::row_piece + Isa::double_lanes)];
-
-    /// depth_mask::encode, in lanes.
-    GNOMON_LANES_VOID void encode(storage* to, const float* z) noexcept {
-        const doubles one = Isa::repeat(1.0), reversed = Isa::subtract(one, Isa::template codes<float32>(z));
-        doubles code = Isa::smaller(Isa::larger(reversed, Isa::repeat(0.0)), one);
+    /// depth_mask::encode, in lanes: whole codes are still to be rounded down.
+    GNOMON_LANES doubles of(doubles z) noexcept {
+        const doubles one = Isa::repeat(1.0);
+        const doubles code = Isa::smaller(Isa::larger(Isa::subtract(one, z), Isa::repeat(0.0)), one);
         if constexpr (channel_type::whole_codes) {
-            code = Isa::multiply(code, Isa::repeat(static_cast<double>(channel_type::scale)));
-            Isa::settle(code);
-            code = Isa::add(code, Isa::repeat(0.5));
+            doubles scaled = Isa::multiply(code, Isa::repeat(static_cast<double>(channel_type::scale)));
+            Isa::settle(scaled);
+            return Isa::add(scaled, Isa::repeat(0.5));
+        } else {
+            return code;
         }
-        Isa::template store_codes<channel_type>(to, code);
-    }
-    explicit row_of_texels(const float* z, int count) noexcept {
-        for (int i = 0; i < count; i += Isa::double_lanes) encode(code + i, z + i);
     }
 };
 
+/// Casts into texels: those of a depth and a mask of whole codes in lanes, others one by one.
 template <typename Isa, texel_format Texel> struct cast_row {
-    static void draw(const detail::raster_job& j, int y, int x0, int x1, const float* z) noexcept {
-        const auto& to = *static_cast<const detail::texel_target<Texel>*>(j.rows);
-        const row_of_texels<Isa, Texel> from(z, x1 - x0);
-        Texel* const row = to.texels.row(y) + x0;
-        Texel caster = to.caster;
-        for (int i = 0; i < x1 - x0; ++i) {
-            caster.stored[Texel::depth_index] = from.code[i];
-            row[i].cast(caster);
+    using channel_type = typename Texel::channel_type;
+    static constexpr bool pairs = Texel::channels == 2 && channel_type::whole_codes;
+
+    const Texel& caster;
+    Texel* row;
+    typename Texel::storage code[pairs ? 1 : static_cast<std::size_t>(detail::row_piece + Isa::double_lanes)];
+
+    cast_row(const detail::raster_job& j, int y, int x0) noexcept
+        : caster(static_cast<const detail::texel_target<Texel>*>(j.rows)->caster),
+          row(static_cast<const detail::texel_target<Texel>*>(j.rows)->texels.row(y) + x0) {}
+    [[gnu::always_inline]] void take(int i, int left, typename Isa::doubles z) noexcept {
+        const auto codes = encoded<Isa, Texel>::of(z);
+        if constexpr (pairs)
+            Isa::template cast_pairs<channel_type>(row[i].stored, left < Isa::double_lanes ? (1u << left) - 1 : ~0u >> (32 - Isa::double_lanes),
+                                                   codes);
+        else
+            Isa::template store_codes<channel_type>(code + i, codes);
+    }
+    void finish(int, int x0, int x1, const float*) const noexcept {
+        if constexpr (!pairs) {
+            Texel here = caster;
+            for (int i = 0; i < x1 - x0; ++i) {
+                here.stored[Texel::depth_index] = code[i];
+                row[i].cast(here);
+            }
         }
     }
 };
 
+/// Ends the shadows of texels.
 template <typename Isa, texel_format Texel> struct bound_row {
-    static void draw(const detail::raster_job& j, int y, int x0, int x1, const float* z) noexcept {
-        using representation_type = typename Texel::representation_type;
-        const auto& to = *static_cast<const detail::texel_target<Texel>*>(j.rows);
-        const row_of_texels<Isa, Texel> from(z, x1 - x0);
-        Texel* const row = to.texels.row(y) + x0;
+    using representation_type = typename Texel::representation_type;
+
+    Texel* row;
+    typename Texel::storage code[static_cast<std::size_t>(detail::row_piece + Isa::double_lanes)];
+
+    bound_row(const detail::raster_job& j, int y, int x0) noexcept
+        : row(static_cast<const detail::texel_target<Texel>*>(j.rows)->texels.row(y) + x0) {}
+    [[gnu::always_inline]] void take(int i, int, typename Isa::doubles z) noexcept {
+        Isa::template store_codes<typename Texel::channel_type>(code + i, encoded<Isa, Texel>::of(z));
+    }
+    void finish(int, int x0, int x1, const float* z) const noexcept {
         for (int i = 0; i < x1 - x0; ++i)
-            if (z[i] >= 0.0f && !representation_type::nearer(from.code[i], row[i].stored[Texel::depth_index]) &&
-                representation_type::nearer(from.code[i], row[i].stored[Texel::far_index]))
-                row[i].stored[Texel::far_index] = from.code[i];
+            if (z[i] >= 0.0f && !representation_type::nearer(code[i], row[i].stored[Texel::depth_index]) &&
+                representation_type::nearer(code[i], row[i].stored[Texel::far_index]))
+                row[i].stored[Texel::far_index] = code[i];
     }
 };
 

@@ -117,6 +117,26 @@ struct avx512 {
             _mm256_storeu_ps(to, _mm256_add_ps(_mm512_maskz_cvtpd_ps(eight, a), _mm256_setzero_ps()));
         }
     }
+    GNOMON_LANES doubles store_floats(float* to, doubles a) noexcept {
+        const __m256 values = _mm256_add_ps(_mm512_maskz_cvtpd_ps(eight, a), _mm256_setzero_ps());
+        _mm256_storeu_ps(to, values);
+        return _mm512_maskz_cvtps_pd(eight, values);
+    }
+    template <channel Channel>
+    GNOMON_LANES_VOID void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
+        constexpr int bits = 8 * sizeof(typename Channel::storage), full = (1 << bits) - 1;
+        const __mmask8 asked = static_cast<__mmask8>(where);
+        const __m256i code = _mm512_maskz_cvttpd_epi32(eight, codes), depth = _mm256_set1_epi32(full);
+        const __m256i old = bits == 8 ? _mm256_cvtepu16_epi32(_mm_maskz_loadu_epi16(asked, to)) : _mm256_maskz_loadu_epi32(asked, to);
+        const __mmask8 nearer = _mm256_cmpgt_epi32_mask(code, _mm256_and_si256(old, depth));
+        const __mmask8 empty = _mm256_testn_epi32_mask(old, _mm256_slli_epi32(depth, bits));
+        const __mmask8 take = static_cast<__mmask8>((nearer | empty) & asked);
+        const __m256i pairs = _mm256_or_si256(code, _mm256_slli_epi32(depth, bits));
+        if constexpr (bits == 8)
+            _mm_mask_storeu_epi16(to, take, _mm256_maskz_cvtepi32_epi16(eight, pairs));
+        else
+            _mm256_mask_storeu_epi32(to, take, pairs);
+    }
 
   private:
     static constexpr __mmask8 eight = 0xFF;

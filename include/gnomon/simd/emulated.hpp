@@ -178,6 +178,21 @@ template <int Bytes> struct emulated {
             else
                 to[i] = Channel::store(a.lane[i]);
     }
+    /// Stores the nearest floats, -0 as 0, and returns them.
+    [[nodiscard]] static doubles store_floats(float* to, doubles a) noexcept {
+        store_codes<float32>(to, a);
+        return codes<float32>(to);
+    }
+    /// Casts onto texels of two channels that lie side by side, depth and mask, of whole codes: where a bit is set and the mask is 0
+    /// or the depth less than the code (rounded down), it becomes the depth, and the mask full. Nothing else is read or written.
+    template <channel Channel> static void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
+        for (int i = 0; i < double_lanes; ++i) {
+            const auto code = static_cast<typename Channel::storage>(codes.lane[i]);
+            if ((where >> i & 1) == 0 || (to[2 * i + 1] != 0 && code <= to[2 * i])) continue;
+            to[2 * i] = code;
+            to[2 * i + 1] = static_cast<typename Channel::storage>(Channel::scale);
+        }
+    }
 
   private:
     template <typename T> [[nodiscard]] static T copied(const void* from) noexcept {

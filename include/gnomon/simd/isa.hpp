@@ -64,6 +64,8 @@ concept simd_isa =
         { Isa::settle(d) };
         { Isa::template codes<unorm8>(codes) } -> std::same_as<typename Isa::doubles>;
         { Isa::template store_codes<unorm8>(codes, d) };
+        { Isa::store_floats(numbers, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::template cast_pairs<unorm8>(codes, unsigned{}, d) };
     };
 
 /// Which lanes a processor has.

@@ -109,6 +109,15 @@ struct sse2 {
             else
                 to[i] = Channel::store(lane[i]);
     }
+    GNOMON_LANES doubles store_floats(float* to, doubles a) noexcept {
+        const floats two = _mm_add_ps(_mm_cvtpd_ps(a), _mm_setzero_ps());
+        _mm_storel_pi(reinterpret_cast<__m64*>(to), two);
+        return _mm_cvtps_pd(two);
+    }
+    template <channel Channel>
+    GNOMON_LANES_VOID void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
+        emulated<bytes>::template cast_pairs<Channel>(to, where, {{_mm_cvtsd_f64(codes), _mm_cvtsd_f64(_mm_unpackhi_pd(codes, codes))}});
+    }
 
   private:
     GNOMON_LANES doubles upper(floats a) noexcept { return _mm_cvtps_pd(_mm_movehl_ps(a, a)); }
