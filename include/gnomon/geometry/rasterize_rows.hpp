@@ -20,8 +20,8 @@ template <typename Isa> struct rasterizer {
     using doubles = typename Isa::doubles;
     using job = detail::raster_job;
     static constexpr int lanes = Isa::double_lanes;
-    /// Up to so many columns, a row is tested centre by centre.
-    static constexpr int narrow_columns = 32;
+    /// Triangles up to this size are cut into runs in lanes of rows; larger ones by detail::scan.
+    static constexpr int small_columns = 1024, small_rows = 128;
 
     /// A vector or a point of as many triangles as there are lanes.
     struct vectors {
@@ -37,10 +37,10 @@ template <typename Isa> struct rasterizer {
         std::uint32_t here = 0;      ///< which lanes hold a triangle of the mesh
         std::uint32_t plain = 0;     ///< which of them no plane cuts
         std::uint32_t on_target = 0; ///< which hold a centre of the target in the box around them
-        std::uint32_t narrow = 0;
+        std::uint32_t small = 0;     ///< which are small
         numbers corner_x[3], corner_y[3]; ///< snapped, in 1/256 texel
         numbers x0, y0, x1, y1;           ///< the centres in the box around them, of the target
-        numbers edge[3], per_column[3], per_row[3];
+        numbers edge[3], per_row[3], per_edge[3], lower_limit[3], upper_limit[3];
         numbers x, y, a, b, c, at_reference, nearest, farthest, area;
     };
 
@@ -94,28 +94,34 @@ template <typename Isa> struct rasterizer {
         return Isa::subtract(Isa::truncate(Isa::multiply(up, Isa::repeat(1.0 / one))), Isa::repeat(bias / one));
     }
 
-    /// Three edges as functions of the centres, positive inside: whole numbers, and exact, of narrow triangles. A centre on an edge is
-    /// in if that is a top or a left one, so these are greater by one.
+    /// The edges of small triangles, as `spans` wants them. All but the inverse are whole numbers, and exact.
+    ///
+    /// dx (y - a.y) - dy (x - a.x) is positive on the inner side; it is kept for the first centre of the box, and for a row more. Times
+    /// 1 / 256 dy that is the column where the edge is met. It bounds a row from below or from above, as dy says.
     GNOMON_LANES_VOID void set_up_edges(batch& b, const doubles (&x)[3], const doubles (&y)[3]) noexcept {
-        const doubles zero = Isa::repeat(0.0), one = Isa::repeat(1.0), unit = Isa::repeat(256.0), half = Isa::repeat(128.0);
+        const doubles zero = Isa::repeat(0.0), one = Isa::repeat(1.0), texel = Isa::repeat(256.0), half = Isa::repeat(128.0);
         const doubles turn = Isa::subtract(Isa::multiply(Isa::subtract(x[1], x[0]), Isa::subtract(y[2], y[0])),
                                            Isa::multiply(Isa::subtract(y[1], y[0]), Isa::subtract(x[2], x[0])));
         const doubles sign = Isa::smaller(Isa::larger(turn, Isa::repeat(-1.0)), one);
-        const doubles centre_x = Isa::add(Isa::multiply(Isa::load(b.x0.lane), unit), half),
-                      centre_y = Isa::add(Isa::multiply(Isa::load(b.y0.lane), unit), half);
+        const doubles centre_x = Isa::add(Isa::multiply(Isa::load(b.x0.lane), texel), half),
+                      centre_y = Isa::add(Isa::multiply(Isa::load(b.y0.lane), texel), half);
         for (int i = 0; i < 3; ++i) {
             const int next = i < 2 ? i + 1 : 0;
             const doubles dx = Isa::multiply(Isa::subtract(x[next], x[i]), sign),
-                          dy = Isa::multiply(Isa::subtract(y[next], y[i]), sign);
-            const doubles inside = Isa::subtract(Isa::multiply(dx, Isa::subtract(centre_y, y[i])),
-                                                 Isa::multiply(dy, Isa::subtract(centre_x, x[i])));
-            // dy < 0, or dy = 0 and dx > 0, where no dx is as long as 2^14.
-            const doubles owns = Isa::subtract(dx, Isa::multiply(dy, Isa::repeat(0x1p14)));
-            keep(b.edge[i], Isa::add(inside, Isa::smaller(Isa::larger(owns, zero), one)));
-            keep(b.per_column[i], Isa::multiply(dy, Isa::repeat(-256.0)));
-            keep(b.per_row[i], Isa::multiply(dx, unit));
+                          dy = Isa::multiply(Isa::subtract(y[next], y[i]), sign), per_column = Isa::multiply(dy, texel);
+            keep(b.edge[i], Isa::subtract(Isa::multiply(dx, Isa::subtract(centre_y, y[i])),
+                                          Isa::multiply(dy, Isa::subtract(centre_x, x[i]))));
+            keep(b.per_row[i], Isa::multiply(dx, texel));
+            keep(b.per_edge[i], Isa::divide(per_column, Isa::larger(Isa::multiply(per_column, per_column), one))); // 0 for 0
+            keep(b.lower_limit[i], limit(Isa::subtract(Isa::repeat(-0.5), dy)));
+            keep(b.upper_limit[i], limit(Isa::subtract(Isa::repeat(0.5), dy)));
         }
-        b.narrow &= Isa::greater_bits(turn, zero) | Isa::greater_bits(zero, turn); // without an area there is no centre in it
+        const std::uint32_t flat = ~(Isa::greater_bits(turn, zero) | Isa::greater_bits(zero, turn));
+        b.on_target &= ~(b.small & flat); // in which there is no centre
+    }
+    /// Beyond all columns, on the side of the sign of `a`, half a whole number.
+    GNOMON_LANES doubles limit(doubles a) noexcept {
+        return Isa::smaller(Isa::larger(Isa::multiply(a, Isa::repeat(8192.0)), Isa::repeat(-4096.0)), Isa::repeat(4096.0));
     }
 
     /// detail::depth_surface.
@@ -160,16 +166,18 @@ template <typename Isa> struct rasterizer {
             keep(b.corner_y[i], y[i]);
         }
         const doubles left = first_centre(Isa::smaller(Isa::smaller(x[0], x[1]), x[2])),
-                      right = first_centre(Isa::larger(Isa::larger(x[0], x[1]), x[2]));
+                      right = first_centre(Isa::larger(Isa::larger(x[0], x[1]), x[2])),
+                      top = first_centre(Isa::smaller(Isa::smaller(y[0], y[1]), y[2])),
+                      bottom = first_centre(Isa::larger(Isa::larger(y[0], y[1]), y[2]));
         const doubles x0 = Isa::larger(left, whole_number(j.target.x0)), x1 = Isa::smaller(right, whole_number(j.target.x1));
-        const doubles y0 = Isa::larger(first_centre(Isa::smaller(Isa::smaller(y[0], y[1]), y[2])), whole_number(j.target.y0)),
-                      y1 = Isa::smaller(first_centre(Isa::larger(Isa::larger(y[0], y[1]), y[2])), whole_number(j.target.y1));
+        const doubles y0 = Isa::larger(top, whole_number(j.target.y0)), y1 = Isa::smaller(bottom, whole_number(j.target.y1));
         keep(b.x0, x0);
         keep(b.x1, x1);
         keep(b.y0, y0);
         keep(b.y1, y1);
         b.on_target = Isa::greater_bits(x1, x0) & Isa::greater_bits(y1, y0);
-        b.narrow = Isa::greater_bits(Isa::repeat(narrow_columns + 0.5), Isa::subtract(right, left));
+        b.small = Isa::greater_bits(whole_number(small_columns), Isa::subtract(right, left)) &
+                  Isa::greater_bits(whole_number(small_rows), Isa::subtract(bottom, top));
         if ((b.plain & b.on_target) == 0) return;
         set_up_edges(b, x, y);
         set_up_depth(b, h, map_x[0], map_y[0], j);
@@ -191,27 +199,27 @@ template <typename Isa> struct rasterizer {
 
     /// detail::triangle_depth for as many columns as there are lanes.
     struct depths {
-        doubles a, x, b, c, nearest, farthest, near_w, per_w, columns;
-        double y;
+        doubles a, x, b, y, c, nearest, farthest, near_w, per_w, from_0;
         bool inverse;
 
         GNOMON_LANES depths of(const detail::triangle_depth& d) noexcept {
-            return {Isa::repeat(d.a),      Isa::repeat(d.x),     Isa::repeat(d.b),  Isa::repeat(d.c), Isa::repeat(d.nearest),
-                    Isa::repeat(d.farthest), Isa::repeat(d.near_w), Isa::repeat(d.per_w), columns_from_0(), d.y, d.inverse};
+            return {Isa::repeat(d.a),       Isa::repeat(d.x),        Isa::repeat(d.b),      Isa::repeat(d.y),     Isa::repeat(d.c),
+                    Isa::repeat(d.nearest), Isa::repeat(d.farthest), Isa::repeat(d.near_w), Isa::repeat(d.per_w), counted(), d.inverse};
         }
-        GNOMON_LANES doubles on_row(const depths& d, int y) noexcept {
-            return Isa::add(times(d.b, Isa::repeat(static_cast<double>(y) + 0.5 - d.y)), d.c);
+        /// What does not change along a row, for rows with centres `y`.
+        GNOMON_LANES doubles on_rows(const depths& d, doubles y) noexcept {
+            return Isa::add(times(d.b, Isa::subtract(y, d.y)), d.c);
         }
         /// From column `x` on.
         GNOMON_LANES doubles put(float* to, const depths& d, doubles on_row, int x) noexcept {
-            const doubles centres = Isa::add(d.columns, Isa::repeat(static_cast<double>(x) + 0.5));
+            const doubles centres = Isa::add(d.from_0, Isa::repeat(static_cast<double>(x) + 0.5));
             doubles z = Isa::add(times(d.a, Isa::subtract(centres, d.x)), on_row);
             if (d.inverse) // what is not positive is made so, and comes to be farthest
                 z = times(Isa::subtract(Isa::divide(Isa::repeat(1.0), Isa::larger(z, Isa::repeat(0x1p-1022))), d.near_w), d.per_w);
             return Isa::store_floats(to, Isa::smaller(Isa::larger(z, d.nearest), d.farthest));
         }
     };
-    GNOMON_LANES doubles columns_from_0() noexcept {
+    GNOMON_LANES doubles counted() noexcept {
         numbers n;
         for (int i = 0; i < lanes; ++i) n.lane[i] = i;
         return Isa::load(n.lane);
@@ -235,7 +243,7 @@ template <typename Isa> struct rasterizer {
         constexpr int most = detail::row_piece;
         float z[static_cast<std::size_t>(most + lanes)];
         const depths d = depths::of(depth);
-        const doubles on_row = depths::on_row(d, y);
+        const doubles on_row = depths::on_rows(d, Isa::repeat(static_cast<double>(y) + 0.5));
         for (int x = x0; x < x1; x += most) draw_piece<Row>(j, d, on_row, y, x, lesser(x1, x + most), z, touched);
     }
 
@@ -248,34 +256,46 @@ template <typename Isa> struct rasterizer {
         detail::scan(corners, 3, around, [&](int y, int x0, int x1) { draw_run<Row>(j, depth, y, x0, x1, touched); });
     }
 
-    template <typename Row>
-    static void draw_narrow(const batch& b, const job& j, int k, const texel_rect& around, detail::touched_texels& touched) {
-        constexpr int registers = (narrow_columns + lanes - 1) / lanes;
-        const depths d = depths::of(depth_of(b, j, k));
-        const doubles zero = Isa::repeat(0.0);
-        doubles edge[3], per_row[3], per_register[3];
-        for (int i = 0; i < 3; ++i) {
-            const doubles per_column = Isa::repeat(b.per_column[i].lane[k]);
-            edge[i] = Isa::add(Isa::repeat(b.edge[i].lane[k]), Isa::multiply(d.columns, per_column));
-            per_row[i] = Isa::repeat(b.per_row[i].lane[k]);
-            per_register[i] = Isa::multiply(per_column, whole_number(lanes));
-        }
-        float z[static_cast<std::size_t>(registers * lanes)];
-        for (int y = around.y0; y < around.y1; ++y) {
-            doubles here[3] = {edge[0], edge[1], edge[2]};
-            std::uint64_t inside = 0;
-            for (int x = 0; x < around.width(); x += lanes) {
-                inside |= static_cast<std::uint64_t>(
-                              Isa::greater_bits(Isa::smaller(Isa::smaller(here[0], here[1]), here[2]), zero))
-                          << x;
-                for (int i = 0; i < 3; ++i) here[i] = Isa::add(here[i], per_register[i]);
+    /// The runs of as many rows as there are lanes, from row `first` of the box on. An edge names one column on every row, the first
+    /// whose centre is not left of it: see scan.hpp. Where it is met is a fraction of 256 dy, so at least 2^-23 after the last whole
+    /// column or on it; and known to 2^-38, so taking off 2^-30 rounds it up rightly.
+    struct spans {
+        numbers begin, end, on_row;
+
+        GNOMON_LANES_VOID void of(spans& s, const batch& b, int k, const texel_rect& around, int first, const depths& d) noexcept {
+            const doubles rows = Isa::add(d.from_0, whole_number(first));
+            doubles begin = Isa::repeat(0.0), end = whole_number(around.width());
+            for (int i = 0; i < 3; ++i) {
+                const doubles edge = Isa::add(Isa::repeat(b.edge[i].lane[k]), Isa::multiply(rows, Isa::repeat(b.per_row[i].lane[k])));
+                const doubles met = Isa::multiply(edge, Isa::repeat(b.per_edge[i].lane[k]));
+                const doubles near_box = Isa::smaller(Isa::larger(met, Isa::repeat(-4.0)), Isa::repeat(2.0 * small_columns));
+                const doubles column = Isa::subtract(Isa::repeat(8192.0), Isa::truncate(Isa::subtract(Isa::repeat(8192.0 + 0x1p-30), near_box)));
+                begin = Isa::larger(begin, Isa::smaller(column, Isa::repeat(b.lower_limit[i].lane[k])));
+                end = Isa::smaller(end, Isa::larger(column, Isa::repeat(b.upper_limit[i].lane[k])));
             }
-            inside &= ~std::uint64_t{0} >> (64 - around.width());
-            for (int i = 0; i < 3; ++i) edge[i] = Isa::add(edge[i], per_row[i]);
-            if (inside == 0) continue;
-            const int x0 = around.x0 + std::countr_zero(inside), x1 = around.x0 + 64 - std::countl_zero(inside);
-            draw_piece<Row>(j, d, depths::on_row(d, y), y, x0, x1, z, touched);
+            keep(s.begin, begin);
+            keep(s.end, end);
+            keep(s.on_row, depths::on_rows(d, Isa::add(rows, Isa::repeat(static_cast<double>(around.y0) + 0.5))));
         }
+    };
+
+    template <typename Row>
+    static void draw_small(const batch& b, const job& j, int k, const texel_rect& around, detail::touched_texels& touched) {
+        const depths d = depths::of(depth_of(b, j, k));
+        detail::touched_texels here = touched;
+        float z[static_cast<std::size_t>(detail::row_piece + lanes)];
+        spans s;
+        for (int first = 0; first < around.height(); first += lanes) {
+            spans::of(s, b, k, around, first, d);
+            const int rows = lesser(lanes, around.height() - first);
+            for (int i = 0; i < rows; ++i) {
+                const int end = around.x0 + static_cast<int>(s.end.lane[i]);
+                int x = around.x0 + static_cast<int>(s.begin.lane[i]);
+                for (; x < end; x += detail::row_piece)
+                    draw_piece<Row>(j, d, Isa::repeat(s.on_row.lane[i]), around.y0 + first + i, x, lesser(end, x + detail::row_piece), z, here);
+            }
+        }
+        touched = here;
     }
 
     template <typename Row> static void draw(const batch& b, const job& j, int first, detail::touched_texels& touched) {
@@ -289,8 +309,8 @@ template <typename Isa> struct rasterizer {
             const auto as_int = [k](const numbers& n) { return static_cast<int>(n.lane[k]); };
             const texel_rect around{as_int(b.x0), as_int(b.y0), as_int(b.x1), as_int(b.y1)};
             if (!j.takes_part(around, b.area.lane[k])) continue;
-            if (has(b.narrow))
-                draw_narrow<Row>(b, j, k, around, touched);
+            if (has(b.small))
+                draw_small<Row>(b, j, k, around, touched);
             else
                 draw_wide<Row>(b, j, k, around, touched);
         }
