@@ -202,17 +202,18 @@ template <typename Isa> struct rasterizer {
         doubles a, x, b, y, c, nearest, farthest, near_w, per_w, from_0;
         bool inverse;
 
-        GNOMON_LANES depths of(const detail::triangle_depth& d) noexcept {
+        /// `saturated`: limited to [0, 1] too.
+        GNOMON_LANES depths of(const detail::triangle_depth& d, bool saturated) noexcept {
+            const auto limit = [saturated](double v) { return Isa::repeat(saturated ? saturate(v) : v); };
             return {Isa::repeat(d.a),       Isa::repeat(d.x),        Isa::repeat(d.b),      Isa::repeat(d.y),     Isa::repeat(d.c),
-                    Isa::repeat(d.nearest), Isa::repeat(d.farthest), Isa::repeat(d.near_w), Isa::repeat(d.per_w), counted(), d.inverse};
+                    limit(d.nearest), limit(d.farthest), Isa::repeat(d.near_w), Isa::repeat(d.per_w), counted(), d.inverse};
         }
         /// What does not change along a row, for rows with centres `y`.
         GNOMON_LANES doubles on_rows(const depths& d, doubles y) noexcept {
             return Isa::add(times(d.b, Isa::subtract(y, d.y)), d.c);
         }
-        /// From column `x` on.
-        GNOMON_LANES doubles put(float* to, const depths& d, doubles on_row, int x) noexcept {
-            const doubles centres = Isa::add(d.from_0, Isa::repeat(static_cast<double>(x) + 0.5));
+        /// At columns with these centres.
+        GNOMON_LANES doubles put(float* to, const depths& d, doubles on_row, doubles centres) noexcept {
             doubles z = Isa::add(times(d.a, Isa::subtract(centres, d.x)), on_row);
             if (d.inverse) // what is not positive is made so, and comes to be farthest
                 z = times(Isa::subtract(Isa::divide(Isa::repeat(1.0), Isa::larger(z, Isa::repeat(0x1p-1022))), d.near_w), d.per_w);
@@ -230,9 +231,10 @@ template <typename Isa> struct rasterizer {
     GNOMON_LANES_VOID void draw_piece(const job& j, const depths& d, doubles on_row, int y, int x0, int x1, float* z,
                                       detail::touched_texels& touched) {
         Row row(j, y, x0);
-        for (int x = x0; x < x1; x += lanes) {
-            const doubles depth = depths::put(z + (x - x0), d, on_row, x);
-            row.take(x - x0, x1 - x, depth);
+        doubles centres = Isa::add(d.from_0, Isa::repeat(static_cast<double>(x0) + 0.5));
+        for (int i = 0; i < x1 - x0; i += lanes) {
+            row.take(i, x1 - x0 - i, depths::put(z + i, d, on_row, centres));
+            centres = Isa::add(centres, whole_number(lanes));
         }
         row.finish(y, x0, x1, z);
         touched.add(y, x0, x1, z[0], z[x1 - x0 - 1]);
@@ -242,7 +244,7 @@ template <typename Isa> struct rasterizer {
     static void draw_run(const job& j, const detail::triangle_depth& depth, int y, int x0, int x1, detail::touched_texels& touched) {
         constexpr int most = detail::row_piece;
         float z[static_cast<std::size_t>(most + lanes)];
-        const depths d = depths::of(depth);
+        const depths d = depths::of(depth, Row::saturated);
         const doubles on_row = depths::on_rows(d, Isa::repeat(static_cast<double>(y) + 0.5));
         for (int x = x0; x < x1; x += most) draw_piece<Row>(j, d, on_row, y, x, lesser(x1, x + most), z, touched);
     }
@@ -281,7 +283,7 @@ template <typename Isa> struct rasterizer {
 
     template <typename Row>
     static void draw_small(const batch& b, const job& j, int k, const texel_rect& around, detail::touched_texels& touched) {
-        const depths d = depths::of(depth_of(b, j, k));
+        const depths d = depths::of(depth_of(b, j, k), Row::saturated);
         detail::touched_texels here = touched;
         float z[static_cast<std::size_t>(detail::row_piece + lanes)];
         spans s;
@@ -349,6 +351,7 @@ template <typename Isa> struct rasterizer {
 /// What takes the depths of a piece of a row: registers of them by `take`, `left` columns from there on; then the whole by `finish`.
 /// Here, the caller's function.
 template <typename Isa> struct called_row {
+    static constexpr bool saturated = false;
     const detail::raster_job& job;
 
     called_row(const detail::raster_job& j, int, int) noexcept : job(j) {}
@@ -361,10 +364,9 @@ template <typename Isa, texel_format Texel> struct encoded {
     using channel_type = typename Texel::channel_type;
     using doubles = typename Isa::doubles;
 
-    /// depth_mask::encode, in lanes: whole codes are still to be rounded down.
+    /// depth_mask::encode, in lanes, of depths in [0, 1]: whole codes are still to be rounded down.
     GNOMON_LANES doubles of(doubles z) noexcept {
-        const doubles one = Isa::repeat(1.0);
-        const doubles code = Isa::smaller(Isa::larger(Isa::subtract(one, z), Isa::repeat(0.0)), one);
+        const doubles code = Isa::subtract(Isa::repeat(1.0), z);
         if constexpr (channel_type::whole_codes) {
             doubles scaled = Isa::multiply(code, Isa::repeat(static_cast<double>(channel_type::scale)));
             Isa::settle(scaled);
@@ -378,6 +380,7 @@ template <typename Isa, texel_format Texel> struct encoded {
 /// Casts into texels: those of a depth and a mask of whole codes in lanes, others one by one.
 template <typename Isa, texel_format Texel> struct cast_row {
     using channel_type = typename Texel::channel_type;
+    static constexpr bool saturated = true;
     static constexpr bool pairs = Texel::channels == 2 && channel_type::whole_codes;
 
     const Texel& caster;
@@ -409,6 +412,7 @@ template <typename Isa, texel_format Texel> struct cast_row {
 /// Ends the shadows of texels.
 template <typename Isa, texel_format Texel> struct bound_row {
     using representation_type = typename Texel::representation_type;
+    static constexpr bool saturated = false; // before the near plane nothing is bounded
 
     Texel* row;
     typename Texel::storage code[static_cast<std::size_t>(detail::row_piece + Isa::double_lanes)];
@@ -416,7 +420,8 @@ template <typename Isa, texel_format Texel> struct bound_row {
     bound_row(const detail::raster_job& j, int y, int x0) noexcept
         : row(static_cast<const detail::texel_target<Texel>*>(j.rows)->texels.row(y) + x0) {}
     [[gnu::always_inline]] void take(int i, int, typename Isa::doubles z) noexcept {
-        Isa::template store_codes<typename Texel::channel_type>(code + i, encoded<Isa, Texel>::of(z));
+        const auto in_range = Isa::smaller(Isa::larger(z, Isa::repeat(0.0)), Isa::repeat(1.0));
+        Isa::template store_codes<typename Texel::channel_type>(code + i, encoded<Isa, Texel>::of(in_range));
     }
     void finish(int, int x0, int x1, const float* z) const noexcept {
         for (int i = 0; i < x1 - x0; ++i)
