@@ -22,6 +22,8 @@ template <typename Isa> struct rasterizer {
     static constexpr int lanes = Isa::double_lanes;
     /// Triangles up to this size are cut into runs in lanes of rows; larger ones by detail::scan.
     static constexpr int small_columns = 1024, small_rows = 128;
+    /// Up to so many rows, they are cut in lanes of triangles.
+    static constexpr int few_rows = 8;
 
     /// A vector or a point of as many triangles as there are lanes.
     struct vectors {
@@ -35,13 +37,14 @@ template <typename Isa> struct rasterizer {
     struct batch {
         float position[9][static_cast<std::size_t>(lanes)]{};
         std::uint32_t here = 0;      ///< which lanes hold a triangle of the mesh
-        std::uint32_t plain = 0;     ///< which of them no plane cuts
-        std::uint32_t on_target = 0; ///< which hold a centre of the target in the box around them
-        std::uint32_t small = 0;     ///< which are small
+        std::uint32_t drawn = 0;     ///< which of them hold a centre of the target in the box around them, or may be cut by a plane
+        std::uint32_t plain = 0;     ///< which are cut by no plane and not seen edge-on
+        std::uint32_t small = 0, few = 0;
         numbers corner_x[3], corner_y[3]; ///< snapped, in 1/256 texel
         numbers x0, y0, x1, y1;           ///< the centres in the box around them, of the target
         numbers edge[3], per_row[3], per_edge[3], lower_limit[3], upper_limit[3];
-        numbers x, y, a, b, c, at_reference, nearest, farthest, area;
+        numbers x, y, a, b, c, nearest, farthest, area;
+        numbers begin[few_rows], end[few_rows], on_row[few_rows]; ///< of triangles with few rows
     };
 
     GNOMON_LANES doubles times(doubles a, doubles b) noexcept {
@@ -116,8 +119,7 @@ template <typename Isa> struct rasterizer {
             keep(b.lower_limit[i], limit(Isa::subtract(Isa::repeat(-0.5), dy)));
             keep(b.upper_limit[i], limit(Isa::subtract(Isa::repeat(0.5), dy)));
         }
-        const std::uint32_t flat = ~(Isa::greater_bits(turn, zero) | Isa::greater_bits(zero, turn));
-        b.on_target &= ~(b.small & flat); // in which there is no centre
+        b.drawn &= ~b.small | Isa::greater_bits(turn, zero) | Isa::greater_bits(zero, turn); // else there is no centre in it
     }
     /// Beyond all columns, on the side of the sign of `a`, half a whole number.
     GNOMON_LANES doubles limit(doubles a) noexcept {
@@ -144,15 +146,46 @@ template <typename Isa> struct rasterizer {
         keep(b.a, solved(u12.x, u20.x, u01.x));
         keep(b.b, solved(u12.y, u20.y, u01.y));
         keep(b.c, Isa::add(c, solved(u12.z, u20.z, u01.z)));
-        keep(b.at_reference, c);
         keep(b.nearest, Isa::smaller(h[2].z, Isa::smaller(h[1].z, h[0].z)));
         keep(b.farthest, Isa::larger(h[2].z, Isa::larger(h[1].z, h[0].z)));
         keep(b.area, area);
+        b.plain &= Isa::greater_bits(area, Isa::repeat(0.0)) | Isa::greater_bits(Isa::repeat(0.0), area);
+    }
+
+    /// Cuts rows of a box by an edge. The edge names one column on every row, the first whose centre is not left of it: see scan.hpp.
+    /// Where it is met is a fraction of 256 dy, so at least 2^-23 after the last whole column or on it; and known to 2^-38, so that less
+    /// 2^-30 it is rounded up rightly.
+    GNOMON_LANES_VOID void cut_rows(doubles& begin, doubles& end, doubles edge, doubles per_edge, doubles lower_limit,
+                                    doubles upper_limit) noexcept {
+        const doubles met = Isa::smaller(Isa::larger(Isa::multiply(edge, per_edge), Isa::repeat(-4.0)), Isa::repeat(2.0 * small_columns));
+        const doubles column =
+            Isa::subtract(Isa::repeat(8192.0), Isa::truncate(Isa::subtract(Isa::repeat(8192.0 + 0x1p-30), met)));
+        begin = Isa::larger(begin, Isa::smaller(column, lower_limit));
+        end = Isa::smaller(end, Isa::larger(column, upper_limit));
+    }
+
+    /// The rows of triangles that have few.
+    static void set_up_rows(batch& b) noexcept {
+        const doubles y0 = Isa::load(b.y0.lane), height = Isa::subtract(Isa::load(b.y1.lane), y0);
+        const doubles width = Isa::subtract(Isa::load(b.x1.lane), Isa::load(b.x0.lane));
+        b.few = b.small & Isa::greater_bits(Isa::repeat(few_rows + 0.5), height);
+        const std::uint32_t rows_of = b.few & b.plain & b.drawn;
+        for (int row = 0; row < few_rows && (Isa::greater_bits(height, whole_number(row)) & rows_of) != 0; ++row) {
+            doubles begin = Isa::repeat(0.0), end = width;
+            for (int i = 0; i < 3; ++i)
+                cut_rows(begin, end, Isa::add(Isa::load(b.edge[i].lane), Isa::multiply(Isa::load(b.per_row[i].lane), whole_number(row))),
+                         Isa::load(b.per_edge[i].lane), Isa::load(b.lower_limit[i].lane), Isa::load(b.upper_limit[i].lane));
+            keep(b.begin[row], begin);
+            keep(b.end[row], end);
+            const doubles centres = Isa::add(y0, Isa::repeat(static_cast<double>(row) + 0.5));
+            keep(b.on_row[row], Isa::add(times(Isa::load(b.b.lane), Isa::subtract(centres, Isa::load(b.y.lane))), Isa::load(b.c.lane)));
+        }
     }
 
     static void set_up(batch& b, const job& j) noexcept {
         const projected h[3] = {project(b, j, 0), project(b, j, 1), project(b, j, 2)};
         b.plain = uncut(h[0], j) & uncut(h[1], j) & uncut(h[2], j);
+        const std::uint32_t cut = ~b.plain;
 
         doubles map_x[3], map_y[3], x[3], y[3];
         for (int i = 0; i < 3; ++i) {
@@ -175,26 +208,20 @@ template <typename Isa> struct rasterizer {
         keep(b.x1, x1);
         keep(b.y0, y0);
         keep(b.y1, y1);
-        b.on_target = Isa::greater_bits(x1, x0) & Isa::greater_bits(y1, y0);
+        b.drawn = Isa::greater_bits(x1, x0) & Isa::greater_bits(y1, y0);
         b.small = Isa::greater_bits(whole_number(small_columns), Isa::subtract(right, left)) &
                   Isa::greater_bits(whole_number(small_rows), Isa::subtract(bottom, top));
-        if ((b.plain & b.on_target) == 0) return;
-        set_up_edges(b, x, y);
-        set_up_depth(b, h, map_x[0], map_y[0], j);
+        if ((b.plain & b.drawn & b.here) != 0) {
+            set_up_edges(b, x, y);
+            set_up_depth(b, h, map_x[0], map_y[0], j);
+            set_up_rows(b);
+        }
+        b.drawn = (b.drawn | cut) & b.here;
     }
 
     [[nodiscard]] static detail::triangle_depth depth_of(const batch& b, const job& j, int k) noexcept {
-        const bool faces = b.area.lane[k] > 0.0 || b.area.lane[k] < 0.0;
-        return {j.perspective,
-                j.near_w,
-                j.per_w,
-                b.x.lane[k],
-                b.y.lane[k],
-                faces ? b.a.lane[k] : 0.0,
-                faces ? b.b.lane[k] : 0.0,
-                faces ? b.c.lane[k] : b.at_reference.lane[k],
-                b.nearest.lane[k],
-                b.farthest.lane[k]};
+        return {j.perspective,  j.near_w,    j.per_w,     b.x.lane[k],       b.y.lane[k],
+                b.a.lane[k], b.b.lane[k], b.c.lane[k], b.nearest.lane[k], b.farthest.lane[k]};
     }
 
     /// detail::triangle_depth for as many columns as there are lanes.
@@ -258,50 +285,51 @@ template <typename Isa> struct rasterizer {
         detail::scan(corners, 3, around, [&](int y, int x0, int x1) { draw_run<Row>(j, depth, y, x0, x1, touched); });
     }
 
-    /// The runs of as many rows as there are lanes, from row `first` of the box on. An edge names one column on every row, the first
-    /// whose centre is not left of it: see scan.hpp. Where it is met is a fraction of 256 dy, so at least 2^-23 after the last whole
-    /// column or on it; and known to 2^-38, so taking off 2^-30 rounds it up rightly.
-    struct spans {
-        numbers begin, end, on_row;
+    template <typename Row>
+    GNOMON_LANES_VOID void draw_row(const job& j, const depths& d, double on_row, int y, int x0, int x1, float* z,
+                                    detail::touched_texels& touched) {
+        for (int x = x0; x < x1; x += detail::row_piece)
+            draw_piece<Row>(j, d, Isa::repeat(on_row), y, x, lesser(x1, x + detail::row_piece), z, touched);
+    }
 
-        GNOMON_LANES_VOID void of(spans& s, const batch& b, int k, const texel_rect& around, int first, const depths& d) noexcept {
-            const doubles rows = Isa::add(d.from_0, whole_number(first));
-            doubles begin = Isa::repeat(0.0), end = whole_number(around.width());
-            for (int i = 0; i < 3; ++i) {
-                const doubles edge = Isa::add(Isa::repeat(b.edge[i].lane[k]), Isa::multiply(rows, Isa::repeat(b.per_row[i].lane[k])));
-                const doubles met = Isa::multiply(edge, Isa::repeat(b.per_edge[i].lane[k]));
-                const doubles near_box = Isa::smaller(Isa::larger(met, Isa::repeat(-4.0)), Isa::repeat(2.0 * small_columns));
-                const doubles column = Isa::subtract(Isa::repeat(8192.0), Isa::truncate(Isa::subtract(Isa::repeat(8192.0 + 0x1p-30), near_box)));
-                begin = Isa::larger(begin, Isa::smaller(column, Isa::repeat(b.lower_limit[i].lane[k])));
-                end = Isa::smaller(end, Isa::larger(column, Isa::repeat(b.upper_limit[i].lane[k])));
-            }
-            keep(s.begin, begin);
-            keep(s.end, end);
-            keep(s.on_row, depths::on_rows(d, Isa::add(rows, Isa::repeat(static_cast<double>(around.y0) + 0.5))));
-        }
-    };
+    template <typename Row>
+    static void draw_few(const batch& b, const job& j, int k, const texel_rect& around, detail::touched_texels& touched) {
+        const depths d = depths::of(depth_of(b, j, k), Row::saturated);
+        detail::touched_texels here = touched;
+        float z[static_cast<std::size_t>(detail::row_piece + lanes)];
+        for (int i = 0; i < around.height(); ++i)
+            draw_row<Row>(j, d, b.on_row[i].lane[k], around.y0 + i, around.x0 + static_cast<int>(b.begin[i].lane[k]),
+                          around.x0 + static_cast<int>(b.end[i].lane[k]), z, here);
+        touched = here;
+    }
 
     template <typename Row>
     static void draw_small(const batch& b, const job& j, int k, const texel_rect& around, detail::touched_texels& touched) {
         const depths d = depths::of(depth_of(b, j, k), Row::saturated);
         detail::touched_texels here = touched;
         float z[static_cast<std::size_t>(detail::row_piece + lanes)];
-        spans s;
-        for (int first = 0; first < around.height(); first += lanes) {
-            spans::of(s, b, k, around, first, d);
-            const int rows = lesser(lanes, around.height() - first);
-            for (int i = 0; i < rows; ++i) {
-                const int end = around.x0 + static_cast<int>(s.end.lane[i]);
-                int x = around.x0 + static_cast<int>(s.begin.lane[i]);
-                for (; x < end; x += detail::row_piece)
-                    draw_piece<Row>(j, d, Isa::repeat(s.on_row.lane[i]), around.y0 + first + i, x, lesser(end, x + detail::row_piece), z, here);
+        for (int first = 0; first < around.height(); first += lanes) { // as many rows as there are lanes
+            const doubles rows = Isa::add(d.from_0, whole_number(first));
+            doubles begin = Isa::repeat(0.0), end = whole_number(around.width());
+            for (int i = 0; i < 3; ++i) {
+                const auto of = [k](const numbers& n) { return Isa::repeat(n.lane[k]); };
+                cut_rows(begin, end, Isa::add(of(b.edge[i]), Isa::multiply(rows, of(b.per_row[i]))), of(b.per_edge[i]), of(b.lower_limit[i]),
+                         of(b.upper_limit[i]));
             }
+            numbers from, to, on_row;
+            keep(from, begin);
+            keep(to, end);
+            keep(on_row, depths::on_rows(d, Isa::add(rows, Isa::repeat(static_cast<double>(around.y0) + 0.5))));
+            const int count = lesser(lanes, around.height() - first);
+            for (int i = 0; i < count; ++i)
+                draw_row<Row>(j, d, on_row.lane[i], around.y0 + first + i, around.x0 + static_cast<int>(from.lane[i]),
+                              around.x0 + static_cast<int>(to.lane[i]), z, here);
         }
         touched = here;
     }
 
     template <typename Row> static void draw(const batch& b, const job& j, int first, detail::touched_texels& touched) {
-        for (std::uint32_t left = b.here & (b.on_target | ~b.plain); left != 0; left &= left - 1) {
+        for (std::uint32_t left = b.drawn; left != 0; left &= left - 1) {
             const int k = std::countr_zero(left);
             const auto has = [k](std::uint32_t bits) { return (bits >> k & 1) != 0; };
             if (!has(b.plain)) {
@@ -311,7 +339,9 @@ template <typename Isa> struct rasterizer {
             const auto as_int = [k](const numbers& n) { return static_cast<int>(n.lane[k]); };
             const texel_rect around{as_int(b.x0), as_int(b.y0), as_int(b.x1), as_int(b.y1)};
             if (!j.takes_part(around, b.area.lane[k])) continue;
-            if (has(b.small))
+            if (has(b.few))
+                draw_few<Row>(b, j, k, around, touched);
+            else if (has(b.small))
                 draw_small<Row>(b, j, k, around, touched);
             else
                 draw_wide<Row>(b, j, k, around, touched);
