@@ -34,8 +34,7 @@ terrain heights(int cells) {
     for (int v = 0; v < cells; ++v)
         for (int u = 0; u < cells; ++u) {
             const auto corner = [&](int du, int dv) { return static_cast<std::uint32_t>((v + dv) * (cells + 1) + u + du); };
-            for (const std::uint32_t index :
-                 {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 0), corner(1, 1), corner(0, 1)})
+            for (const std::uint32_t index : {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 0), corner(1, 1), corner(0, 1)})
                 t.indices.push_back(index);
         }
     return t;
@@ -58,13 +57,17 @@ terrain needles(int count) {
 
 /// [-1, 1]^2 on the whole map, a little turned, so that no edge lies on a row of centres.
 light_frame sun() {
-    const glm::dmat4 to_map(glm::dvec4(511.9, 3.1, 0.01, 0.0), glm::dvec4(20.0, 10.0, -0.5, 0.0), glm::dvec4(-3.1, 511.9, 0.02, 0.0),
-                            glm::dvec4(512.0, 512.0, 0.5, 1.0));
+    const glm::dmat4 to_map(glm::dvec4(511.9, 3.1, 0.01, 0.0), glm::dvec4(20.0, 10.0, -0.5, 0.0),
+                            glm::dvec4(-3.1, 511.9, 0.02, 0.0), glm::dvec4(512.0, 512.0, 0.5, 1.0));
     return {to_map, {side, side}, 1.0, 1.0};
 }
 light_frame lamp() {
-    return spot_light{.position = {0.0, 1.5, 0.0}, .direction = {0.02, -1.0, 0.01}, .outer_angle = 0.588,
-                      .near_plane = 0.5, .far_plane = 2.5, .up = {0, 0, 1}}
+    return spot_light{.position = {0.0, 1.5, 0.0},
+                      .direction = {0.02, -1.0, 0.01},
+                      .outer_angle = 0.588,
+                      .near_plane = 0.5,
+                      .far_plane = 2.5,
+                      .up = {0, 0, 1}}
         .frame({side, side});
 }
 

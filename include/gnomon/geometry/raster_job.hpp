@@ -6,7 +6,7 @@
 namespace gnomon::detail {
 
 /// Depths come in pieces of at most so many of one row.
-inline constexpr int row_piece = 64;
+inline constexpr int row_piece = 256;
 
 /// One mesh for one map. What is called is called by its address, so that nothing of it is compiled for the lanes' processor, where
 /// its sums would be rounded otherwise.
@@ -32,9 +32,7 @@ struct raster_job {
     void (*run)(const raster_job& job, const triangle_depth& depth, int y, int x0, int x1, touched_texels& touched);
 
     [[nodiscard]] bool operator()(texel_rect around) const { return touches == nullptr || touches(where, around); }
-    [[nodiscard]] bool takes_part(texel_rect around, double area) const {
-        return (*this)(around) && shows(area, handedness, side);
-    }
+    [[nodiscard]] bool takes_part(texel_rect around, double area) const { return (*this)(around) && shows(area, handedness, side); }
 };
 
 /// A map that rows go to, and the caster of which they are the depths.

@@ -111,8 +111,9 @@ light_footprint rasterize(simd<Isa>, const triangle_mesh& mesh, const light_fram
             for (int x = x0; x < x1; ++x) (**static_cast<sink_type**>(object))(x, y, z[x - x0]);
         };
         sink_type* object = &sink;
-        return detail::rasterize_rows<Isa>(mesh, light, target, side, where, &object, row,
-                                           []<typename Lanes>() { return std::type_identity<typename detail::raster_on<Lanes>::called>{}; });
+        return detail::rasterize_rows<Isa>(mesh, light, target, side, where, &object, row, []<typename Lanes>() {
+            return std::type_identity<typename detail::raster_on<Lanes>::called>{};
+        });
     } else {
         return rasterize(mesh, light, target, side, sink, where);
     }
@@ -124,9 +125,9 @@ light_footprint cast_triangles(simd<Isa> run, image_view<Texel> texels, const tr
                                faces side = faces::both) {
     if constexpr (detail::cast_in_lanes<Isa, Texel>) {
         detail::texel_target<Texel> target{texels, Texel::caster(0.0f)};
-        return detail::rasterize_rows<Isa>(mesh, light, whole(texels.size()), side, touches_everything{}, &target, nullptr, []<typename Lanes>() {
-            return std::type_identity<typename detail::raster_on<Lanes>::template cast<Texel>>{};
-        });
+        return detail::rasterize_rows<Isa>(
+            mesh, light, whole(texels.size()), side, touches_everything{}, &target, nullptr,
+            []<typename Lanes>() { return std::type_identity<typename detail::raster_on<Lanes>::template cast<Texel>>{}; });
     } else {
         return rasterize(run, mesh, light, whole(texels.size()), side,
                          [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s)); });
@@ -140,9 +141,9 @@ light_footprint cast_triangles(simd<Isa> run, image_view<Texel> texels, const tr
                                float opacity, faces side = faces::both) {
     if constexpr (detail::cast_in_lanes<Isa, Texel>) {
         detail::texel_target<Texel> target{texels, Texel::caster(0.0f, opacity)};
-        return detail::rasterize_rows<Isa>(mesh, light, whole(texels.size()), side, touches_everything{}, &target, nullptr, []<typename Lanes>() {
-            return std::type_identity<typename detail::raster_on<Lanes>::template cast<Texel>>{};
-        });
+        return detail::rasterize_rows<Isa>(
+            mesh, light, whole(texels.size()), side, touches_everything{}, &target, nullptr,
+            []<typename Lanes>() { return std::type_identity<typename detail::raster_on<Lanes>::template cast<Texel>>{}; });
     } else {
         return rasterize(run, mesh, light, whole(texels.size()), side,
                          [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s, opacity)); });
@@ -156,9 +157,9 @@ light_footprint bound_triangles(simd<Isa> run, image_view<Texel> texels, const t
                                 faces side = faces::both, const Where& where = {}, texel_rect region = everywhere) {
     if constexpr (detail::cast_in_lanes<Isa, Texel>) {
         detail::texel_target<Texel> target{texels, Texel::clear()};
-        return detail::rasterize_rows<Isa>(mesh, light, clip(region, texels.size()), side, where, &target, nullptr, []<typename Lanes>() {
-            return std::type_identity<typename detail::raster_on<Lanes>::template bound<Texel>>{};
-        });
+        return detail::rasterize_rows<Isa>(
+            mesh, light, clip(region, texels.size()), side, where, &target, nullptr,
+            []<typename Lanes>() { return std::type_identity<typename detail::raster_on<Lanes>::template bound<Texel>>{}; });
     } else {
         const auto bound = [&](int x, int y, float z) {
             if (z >= 0.0f) texels(x, y).bound(z);

@@ -20,8 +20,8 @@ template <typename Isa> struct rasterizer {
     using doubles = typename Isa::doubles;
     using job = detail::raster_job;
     static constexpr int lanes = Isa::double_lanes;
-    /// Triangles up to this size are cut into runs in lanes of rows; larger ones by detail::scan.
-    static constexpr int small_columns = 1024, small_rows = 128;
+    /// Triangles up to so many columns and rows are cut into runs in lanes; larger ones, as those that planes cut, by detail::scan.
+    static constexpr double most = 4096.0;
     /// Up to so many rows, they are cut in lanes of triangles.
     static constexpr int few_rows = 8;
 
@@ -36,12 +36,11 @@ template <typename Isa> struct rasterizer {
     /// As many triangles as there are lanes, set up. The numbers of one are side by side with those of the others.
     struct batch {
         float position[9][static_cast<std::size_t>(lanes)]{};
-        std::uint32_t here = 0;      ///< which lanes hold a triangle of the mesh
-        std::uint32_t drawn = 0;     ///< which of them hold a centre of the target in the box around them, or may be cut by a plane
-        std::uint32_t plain = 0;     ///< which are cut by no plane and not seen edge-on
-        std::uint32_t small = 0, few = 0;
-        numbers corner_x[3], corner_y[3]; ///< snapped, in 1/256 texel
-        numbers x0, y0, x1, y1;           ///< the centres in the box around them, of the target
+        std::uint32_t here = 0;  ///< which lanes hold a triangle of the mesh
+        std::uint32_t drawn = 0; ///< which of them hold a centre of the target in the box around them, or may do
+        std::uint32_t plain = 0; ///< which are cut by no plane, not too large, and not seen edge-on
+        std::uint32_t few = 0;   ///< which have few rows
+        numbers x0, y0, x1, y1;  ///< the centres in the box around them, of the target
         numbers edge[3], per_row[3], per_edge[3], lower_limit[3], upper_limit[3];
         numbers x, y, a, b, c, nearest, farthest, area;
         numbers begin[few_rows], end[few_rows], on_row[few_rows]; ///< of triangles with few rows
@@ -77,11 +76,11 @@ template <typename Isa> struct rasterizer {
         return {row(0), row(1), row(2), j.divides ? row(3) : Isa::repeat(1.0)};
     }
 
-    /// Which triangles no plane cuts, for sure: x and y within half the reach, and before the near plane. None with a NaN.
-    GNOMON_LANES std::uint32_t uncut(const projected& h, const job& j) noexcept {
+    /// Which triangles have a corner that a plane cuts off, or may do, for it is not within half the reach; or with a NaN.
+    GNOMON_LANES std::uint32_t may_be_cut(const projected& h, const job& j) noexcept {
         const doubles zero = Isa::repeat(0.0), within = Isa::multiply(h.w, Isa::repeat(detail::fixed_point::reach));
         const doubles left = Isa::subtract(Isa::subtract(within, absolute(h.x)), Isa::add(absolute(h.y), Isa::multiply(h.z, zero)));
-        return Isa::greater_bits(left, zero) & (j.perspective ? Isa::greater_bits(h.z, zero) : ~0u);
+        return ~(Isa::greater_bits(left, zero) & (j.perspective ? Isa::greater_bits(h.z, zero) : ~0u));
     }
 
     /// detail::fixed_point::nearest, of what is within its reach.
@@ -97,7 +96,7 @@ template <typename Isa> struct rasterizer {
         return Isa::subtract(Isa::truncate(Isa::multiply(up, Isa::repeat(1.0 / one))), Isa::repeat(bias / one));
     }
 
-    /// The edges of small triangles, as `spans` wants them. All but the inverse are whole numbers, and exact.
+    /// The edges, as `cut_rows` wants them. All but the inverse are whole numbers, and exact.
     ///
     /// dx (y - a.y) - dy (x - a.x) is positive on the inner side; it is kept for the first centre of the box, and for a row more. Times
     /// 1 / 256 dy that is the column where the edge is met. It bounds a row from below or from above, as dy says.
@@ -112,22 +111,25 @@ template <typename Isa> struct rasterizer {
             const int next = i < 2 ? i + 1 : 0;
             const doubles dx = Isa::multiply(Isa::subtract(x[next], x[i]), sign),
                           dy = Isa::multiply(Isa::subtract(y[next], y[i]), sign), per_column = Isa::multiply(dy, texel);
-            keep(b.edge[i], Isa::subtract(Isa::multiply(dx, Isa::subtract(centre_y, y[i])),
-                                          Isa::multiply(dy, Isa::subtract(centre_x, x[i]))));
+            keep(b.edge[i],
+                 Isa::subtract(Isa::multiply(dx, Isa::subtract(centre_y, y[i])), Isa::multiply(dy, Isa::subtract(centre_x, x[i]))));
             keep(b.per_row[i], Isa::multiply(dx, texel));
             keep(b.per_edge[i], Isa::divide(per_column, Isa::larger(Isa::multiply(per_column, per_column), one))); // 0 for 0
             keep(b.lower_limit[i], limit(Isa::subtract(Isa::repeat(-0.5), dy)));
             keep(b.upper_limit[i], limit(Isa::subtract(Isa::repeat(0.5), dy)));
         }
-        b.drawn &= ~b.small | Isa::greater_bits(turn, zero) | Isa::greater_bits(zero, turn); // else there is no centre in it
+        b.drawn &= ~b.plain | Isa::greater_bits(turn, zero) | Isa::greater_bits(zero, turn); // else there is no centre in it
     }
     /// Beyond all columns, on the side of the sign of `a`, half a whole number.
     GNOMON_LANES doubles limit(doubles a) noexcept {
-        return Isa::smaller(Isa::larger(Isa::multiply(a, Isa::repeat(8192.0)), Isa::repeat(-4096.0)), Isa::repeat(4096.0));
+        const doubles beyond = Isa::repeat(2.0 * most);
+        return Isa::smaller(Isa::larger(Isa::multiply(a, Isa::repeat(4.0 * most)), Isa::subtract(Isa::repeat(0.0), beyond)),
+                            beyond);
     }
 
     /// detail::depth_surface.
-    GNOMON_LANES_VOID void set_up_depth(batch& b, const projected (&h)[3], const doubles& x, const doubles& y, const job& j) noexcept {
+    GNOMON_LANES_VOID void set_up_depth(batch& b, const projected (&h)[3], const doubles& x, const doubles& y,
+                                        const job& j) noexcept {
         const doubles one = Isa::repeat(1.0);
         const doubles c = j.perspective ? Isa::divide(one, h[0].w) : h[0].z;
         vectors u[3];
@@ -153,13 +155,13 @@ template <typename Isa> struct rasterizer {
     }
 
     /// Cuts rows of a box by an edge. The edge names one column on every row, the first whose centre is not left of it: see scan.hpp.
-    /// Where it is met is a fraction of 256 dy, so at least 2^-23 after the last whole column or on it; and known to 2^-38, so that less
+    /// Where it is met is a fraction of 256 dy, so it is on a whole column or at least 2^-29 after it; and known to 2^-38, so that less
     /// 2^-30 it is rounded up rightly.
     GNOMON_LANES_VOID void cut_rows(doubles& begin, doubles& end, doubles edge, doubles per_edge, doubles lower_limit,
                                     doubles upper_limit) noexcept {
-        const doubles met = Isa::smaller(Isa::larger(Isa::multiply(edge, per_edge), Isa::repeat(-4.0)), Isa::repeat(2.0 * small_columns));
-        const doubles column =
-            Isa::subtract(Isa::repeat(8192.0), Isa::truncate(Isa::subtract(Isa::repeat(8192.0 + 0x1p-30), met)));
+        constexpr double bias = 4.0 * most;
+        const doubles met = Isa::smaller(Isa::larger(Isa::multiply(edge, per_edge), Isa::repeat(-1.0)), Isa::repeat(2.0 * most));
+        const doubles column = Isa::subtract(Isa::repeat(bias), Isa::truncate(Isa::subtract(Isa::repeat(bias + 0x1p-30), met)));
         begin = Isa::larger(begin, Isa::smaller(column, lower_limit));
         end = Isa::smaller(end, Isa::larger(column, upper_limit));
     }
@@ -168,24 +170,26 @@ template <typename Isa> struct rasterizer {
     static void set_up_rows(batch& b) noexcept {
         const doubles y0 = Isa::load(b.y0.lane), height = Isa::subtract(Isa::load(b.y1.lane), y0);
         const doubles width = Isa::subtract(Isa::load(b.x1.lane), Isa::load(b.x0.lane));
-        b.few = b.small & Isa::greater_bits(Isa::repeat(few_rows + 0.5), height);
+        b.few = Isa::greater_bits(Isa::repeat(few_rows + 0.5), height);
         const std::uint32_t rows_of = b.few & b.plain & b.drawn;
         for (int row = 0; row < few_rows && (Isa::greater_bits(height, whole_number(row)) & rows_of) != 0; ++row) {
             doubles begin = Isa::repeat(0.0), end = width;
             for (int i = 0; i < 3; ++i)
-                cut_rows(begin, end, Isa::add(Isa::load(b.edge[i].lane), Isa::multiply(Isa::load(b.per_row[i].lane), whole_number(row))),
+                cut_rows(begin, end,
+                         Isa::add(Isa::load(b.edge[i].lane), Isa::multiply(Isa::load(b.per_row[i].lane), whole_number(row))),
                          Isa::load(b.per_edge[i].lane), Isa::load(b.lower_limit[i].lane), Isa::load(b.upper_limit[i].lane));
             keep(b.begin[row], begin);
             keep(b.end[row], end);
             const doubles centres = Isa::add(y0, Isa::repeat(static_cast<double>(row) + 0.5));
-            keep(b.on_row[row], Isa::add(times(Isa::load(b.b.lane), Isa::subtract(centres, Isa::load(b.y.lane))), Isa::load(b.c.lane)));
+            keep(b.on_row[row],
+                 Isa::add(times(Isa::load(b.b.lane), Isa::subtract(centres, Isa::load(b.y.lane))), Isa::load(b.c.lane)));
         }
     }
 
     static void set_up(batch& b, const job& j) noexcept {
         const projected h[3] = {project(b, j, 0), project(b, j, 1), project(b, j, 2)};
-        b.plain = uncut(h[0], j) & uncut(h[1], j) & uncut(h[2], j);
-        const std::uint32_t cut = ~b.plain;
+        const std::uint32_t uncut = ~(may_be_cut(h[0], j) | may_be_cut(h[1], j) | may_be_cut(h[2], j));
+        b.plain = uncut;
 
         doubles map_x[3], map_y[3], x[3], y[3];
         for (int i = 0; i < 3; ++i) {
@@ -195,8 +199,6 @@ template <typename Isa> struct rasterizer {
             const doubles reach = Isa::repeat(detail::fixed_point::reach), before = Isa::repeat(-detail::fixed_point::reach);
             x[i] = snapped(Isa::smaller(Isa::larger(map_x[i], before), reach));
             y[i] = snapped(Isa::smaller(Isa::larger(map_y[i], before), reach));
-            keep(b.corner_x[i], x[i]);
-            keep(b.corner_y[i], y[i]);
         }
         const doubles left = first_centre(Isa::smaller(Isa::smaller(x[0], x[1]), x[2])),
                       right = first_centre(Isa::larger(Isa::larger(x[0], x[1]), x[2])),
@@ -209,19 +211,19 @@ template <typename Isa> struct rasterizer {
         keep(b.y0, y0);
         keep(b.y1, y1);
         b.drawn = Isa::greater_bits(x1, x0) & Isa::greater_bits(y1, y0);
-        b.small = Isa::greater_bits(whole_number(small_columns), Isa::subtract(right, left)) &
-                  Isa::greater_bits(whole_number(small_rows), Isa::subtract(bottom, top));
+        b.plain &= Isa::greater_bits(Isa::repeat(most), Isa::subtract(right, left)) &
+                   Isa::greater_bits(Isa::repeat(most), Isa::subtract(bottom, top));
         if ((b.plain & b.drawn & b.here) != 0) {
             set_up_edges(b, x, y);
             set_up_depth(b, h, map_x[0], map_y[0], j);
             set_up_rows(b);
         }
-        b.drawn = (b.drawn | cut) & b.here;
+        b.drawn = (b.drawn | ~uncut) & b.here;
     }
 
     [[nodiscard]] static detail::triangle_depth depth_of(const batch& b, const job& j, int k) noexcept {
-        return {j.perspective,  j.near_w,    j.per_w,     b.x.lane[k],       b.y.lane[k],
-                b.a.lane[k], b.b.lane[k], b.c.lane[k], b.nearest.lane[k], b.farthest.lane[k]};
+        return {j.perspective, j.near_w,    j.per_w,     b.x.lane[k],       b.y.lane[k],
+                b.a.lane[k],   b.b.lane[k], b.c.lane[k], b.nearest.lane[k], b.farthest.lane[k]};
     }
 
     /// detail::triangle_depth for as many columns as there are lanes.
@@ -232,8 +234,9 @@ template <typename Isa> struct rasterizer {
         /// `saturated`: limited to [0, 1] too.
         GNOMON_LANES depths of(const detail::triangle_depth& d, bool saturated) noexcept {
             const auto limit = [saturated](double v) { return Isa::repeat(saturated ? saturate(v) : v); };
-            return {Isa::repeat(d.a),       Isa::repeat(d.x),        Isa::repeat(d.b),      Isa::repeat(d.y),     Isa::repeat(d.c),
-                    limit(d.nearest), limit(d.farthest), Isa::repeat(d.near_w), Isa::repeat(d.per_w), counted(), d.inverse};
+            return {Isa::repeat(d.a),     Isa::repeat(d.x), Isa::repeat(d.b),  Isa::repeat(d.y),
+                    Isa::repeat(d.c),     limit(d.nearest), limit(d.farthest), Isa::repeat(d.near_w),
+                    Isa::repeat(d.per_w), counted(),        d.inverse};
         }
         /// What does not change along a row, for rows with centres `y`.
         GNOMON_LANES doubles on_rows(const depths& d, doubles y) noexcept {
@@ -268,21 +271,13 @@ template <typename Isa> struct rasterizer {
     }
 
     template <typename Row>
-    static void draw_run(const job& j, const detail::triangle_depth& depth, int y, int x0, int x1, detail::touched_texels& touched) {
+    static void draw_run(const job& j, const detail::triangle_depth& depth, int y, int x0, int x1,
+                         detail::touched_texels& touched) {
         constexpr int most = detail::row_piece;
         float z[static_cast<std::size_t>(most + lanes)];
         const depths d = depths::of(depth, Row::saturated);
         const doubles on_row = depths::on_rows(d, Isa::repeat(static_cast<double>(y) + 0.5));
         for (int x = x0; x < x1; x += most) draw_piece<Row>(j, d, on_row, y, x, lesser(x1, x + most), z, touched);
-    }
-
-    template <typename Row>
-    static void draw_wide(const batch& b, const job& j, int k, const texel_rect& around, detail::touched_texels& touched) {
-        detail::fixed_point corners[3];
-        for (int i = 0; i < 3; ++i)
-            corners[i] = {static_cast<std::int64_t>(b.corner_x[i].lane[k]), static_cast<std::int64_t>(b.corner_y[i].lane[k])};
-        const detail::triangle_depth depth = depth_of(b, j, k);
-        detail::scan(corners, 3, around, [&](int y, int x0, int x1) { draw_run<Row>(j, depth, y, x0, x1, touched); });
     }
 
     template <typename Row>
@@ -304,7 +299,7 @@ template <typename Isa> struct rasterizer {
     }
 
     template <typename Row>
-    static void draw_small(const batch& b, const job& j, int k, const texel_rect& around, detail::touched_texels& touched) {
+    static void draw_rows(const batch& b, const job& j, int k, const texel_rect& around, detail::touched_texels& touched) {
         const depths d = depths::of(depth_of(b, j, k), Row::saturated);
         detail::touched_texels here = touched;
         float z[static_cast<std::size_t>(detail::row_piece + lanes)];
@@ -313,8 +308,8 @@ template <typename Isa> struct rasterizer {
             doubles begin = Isa::repeat(0.0), end = whole_number(around.width());
             for (int i = 0; i < 3; ++i) {
                 const auto of = [k](const numbers& n) { return Isa::repeat(n.lane[k]); };
-                cut_rows(begin, end, Isa::add(of(b.edge[i]), Isa::multiply(rows, of(b.per_row[i]))), of(b.per_edge[i]), of(b.lower_limit[i]),
-                         of(b.upper_limit[i]));
+                cut_rows(begin, end, Isa::add(of(b.edge[i]), Isa::multiply(rows, of(b.per_row[i]))), of(b.per_edge[i]),
+                         of(b.lower_limit[i]), of(b.upper_limit[i]));
             }
             numbers from, to, on_row;
             keep(from, begin);
@@ -341,10 +336,8 @@ template <typename Isa> struct rasterizer {
             if (!j.takes_part(around, b.area.lane[k])) continue;
             if (has(b.few))
                 draw_few<Row>(b, j, k, around, touched);
-            else if (has(b.small))
-                draw_small<Row>(b, j, k, around, touched);
             else
-                draw_wide<Row>(b, j, k, around, touched);
+                draw_rows<Row>(b, j, k, around, touched);
         }
     }
 
@@ -423,8 +416,8 @@ template <typename Isa, texel_format Texel> struct cast_row {
     [[gnu::always_inline]] void take(int i, int left, typename Isa::doubles z) noexcept {
         const auto codes = encoded<Isa, Texel>::of(z);
         if constexpr (pairs)
-            Isa::template cast_pairs<channel_type>(row[i].stored, left < Isa::double_lanes ? (1u << left) - 1 : ~0u >> (32 - Isa::double_lanes),
-                                                   codes);
+            Isa::template cast_pairs<channel_type>(
+                row[i].stored, left < Isa::double_lanes ? (1u << left) - 1 : ~0u >> (32 - Isa::double_lanes), codes);
         else
             Isa::template store_codes<channel_type>(code + i, codes);
     }

@@ -127,7 +127,8 @@ struct avx512 {
         constexpr int bits = 8 * sizeof(typename Channel::storage), full = (1 << bits) - 1;
         const __mmask8 asked = static_cast<__mmask8>(where);
         const __m256i code = _mm512_maskz_cvttpd_epi32(eight, codes), depth = _mm256_set1_epi32(full);
-        const __m256i old = bits == 8 ? _mm256_cvtepu16_epi32(_mm_maskz_loadu_epi16(asked, to)) : _mm256_maskz_loadu_epi32(asked, to);
+        const __m256i old =
+            bits == 8 ? _mm256_cvtepu16_epi32(_mm_maskz_loadu_epi16(asked, to)) : _mm256_maskz_loadu_epi32(asked, to);
         const __mmask8 take = _kor_mask8(_mm256_mask_cmpgt_epi32_mask(asked, code, _mm256_and_si256(old, depth)),
                                          _mm256_mask_testn_epi32_mask(asked, old, _mm256_slli_epi32(depth, bits)));
         const __m256i pairs = _mm256_or_si256(code, _mm256_slli_epi32(depth, bits));

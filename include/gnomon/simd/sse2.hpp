@@ -116,7 +116,8 @@ struct sse2 {
     }
     template <channel Channel>
     GNOMON_LANES_VOID void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
-        emulated<bytes>::template cast_pairs<Channel>(to, where, {{_mm_cvtsd_f64(codes), _mm_cvtsd_f64(_mm_unpackhi_pd(codes, codes))}});
+        emulated<bytes>::template cast_pairs<Channel>(to, where,
+                                                      {{_mm_cvtsd_f64(codes), _mm_cvtsd_f64(_mm_unpackhi_pd(codes, codes))}});
     }
 
   private:
