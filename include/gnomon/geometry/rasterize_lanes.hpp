@@ -5,17 +5,20 @@
 #include <gnomon/geometry/raster_job.hpp>
 
 #define GNOMON_ON on_any
-#include <gnomon/geometry/rasterize_rows.hpp>
+#include <gnomon/geometry/raster_batch.hpp>
+#include <gnomon/geometry/raster_rows.hpp>
 #undef GNOMON_ON
 #if GNOMON_X86
 GNOMON_TARGET_BEGIN(GNOMON_AVX2)
 #define GNOMON_ON on_avx2
-#include <gnomon/geometry/rasterize_rows.hpp>
+#include <gnomon/geometry/raster_batch.hpp>
+#include <gnomon/geometry/raster_rows.hpp>
 #undef GNOMON_ON
 GNOMON_TARGET_END
 GNOMON_TARGET_BEGIN(GNOMON_AVX512)
 #define GNOMON_ON on_avx512
-#include <gnomon/geometry/rasterize_rows.hpp>
+#include <gnomon/geometry/raster_batch.hpp>
+#include <gnomon/geometry/raster_rows.hpp>
 #undef GNOMON_ON
 GNOMON_TARGET_END
 #endif
@@ -167,5 +170,24 @@ light_footprint bound_triangles(simd<Isa> run, image_view<Texel> texels, const t
         return rasterize(run, mesh, light, clip(region, texels.size()), side, bound, where);
     }
 }
+
+/// @name The plain loops, for code that is given a backend: cast_triangles(scalar{}, texels, mesh, light).
+/// @{
+template <typename... Given>
+    requires requires(Given&&... given) { rasterize(given...); }
+light_footprint rasterize(scalar, Given&&... given) {
+    return rasterize(given...);
+}
+template <typename... Given>
+    requires requires(Given&&... given) { cast_triangles(given...); }
+light_footprint cast_triangles(scalar, Given&&... given) {
+    return cast_triangles(given...);
+}
+template <typename... Given>
+    requires requires(Given&&... given) { bound_triangles(given...); }
+light_footprint bound_triangles(scalar, Given&&... given) {
+    return bound_triangles(given...);
+}
+/// @}
 
 } // namespace gnomon
