@@ -1,13 +1,15 @@
-// How many triangles go onto a map: lanes against the scalar rasteriser, by size of triangle.
+// How many triangles go onto a map: lanes against the scalar rasteriser, by the size of a triangle.
 //
-// Names are WHAT/LIGHT/EDGE: EDGE is a triangle's legs in texels, LIGHT a sun or a spot lamp. A terrain of such triangles fills a map
-// of 1024 x 1024 rg8 once, so the smaller, the more; `needles` are 2000 of them all across it. All run in one process.
+// Names are WHAT/LIGHT/eEDGE/SIZE: triangles with legs of EDGE texels, as a terrain that fills a map of SIZE x SIZE rg8 once, so the
+// smaller, the more; or 2000 needles all across it. LIGHT is a sun, or a spot lamp, which divides at every texel. All run in one process;
+// clearing the map between two rounds is not timed.
 #include <gnomon/geometry/rasterize_lanes.hpp>
 #include <gnomon/geometry/spot_light.hpp>
 
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
+#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
@@ -106,7 +108,7 @@ int main(int count, char** words) {
     for (const int edge : edges) terrains.push_back(heights(side / edge));
     terrains.push_back(needles(2000));
     for (std::size_t i = 0; i < terrains.size(); ++i) {
-        const std::string edge = i < std::size(edges) ? std::to_string(edges[i]) : "needles";
+        const std::string edge = (i < std::size(edges) ? "e" + std::to_string(edges[i]) : "needles") + "/" + std::to_string(side);
         add_all("sun/" + edge, sun(), terrains[i]);
         add_all("lamp/" + edge, lamp(), terrains[i]);
     }

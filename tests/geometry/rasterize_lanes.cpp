@@ -101,9 +101,9 @@ mesh_data any_mesh(dice& roll, int i) {
 
 glm::dmat4 any_model(dice& roll, int i) {
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), roll(-3.0, 3.0), glm::dvec3(0.6, 0.0, 0.8));
-    if (i % 6 == 0) return glm::scale(turned, glm::dvec3(1.0, -1.0, 0.5));            // mirrors
-    if (i % 6 == 1) return glm::scale(turned, glm::dvec3(1.0, i % 4 == 0, 1.0));      // flattens, now and then
-    if (i % 6 == 2) return glm::perspective(1.0, 1.0, 0.5, 20.0) * turned;            // W is not 1 even under a sun
+    if (i % 6 == 0) return glm::scale(turned, glm::dvec3(1.0, -1.0, 0.5));       // mirrors
+    if (i % 6 == 1) return glm::scale(turned, glm::dvec3(1.0, i % 4 == 0, 1.0)); // flattens, now and then
+    if (i % 6 == 2) return glm::perspective(1.0, 1.0, 0.5, 20.0) * turned;       // W is not 1 even under a sun
     return turned;
 }
 
@@ -159,8 +159,8 @@ TEST_CASE("lanes skip the triangles that a place for them does not touch, as the
     CHECK(skipped > 5000);
 }
 
-TEST_CASE_TEMPLATE("lanes cast and bound as the scalar rasteriser does, whatever is in the map, and write nothing beside it", Texel, rg8,
-                   rg16, rg16f, rg32f, tm8, test::paper8, rga8, rgb16, rgba8, rgba32f, test::ratio_rgba16) {
+TEST_CASE_TEMPLATE("lanes cast and bound as the scalar rasteriser does, whatever is in the map, and write nothing beside it", Texel,
+                   rg8, rg16, rg16f, rg32f, tm8, test::paper8, rga8, rgb16, rgba8, rgba32f, test::ratio_rgba16) {
     dice roll{std::mt19937_64(33)};
     test::dice bits(33);
     constexpr extent around{map_size.width + 9, map_size.height + 2};
@@ -196,7 +196,8 @@ TEST_CASE_TEMPLATE("lanes cast and bound as the scalar rasteriser does, whatever
     CHECK(changed > 10000);
 }
 
-TEST_CASE("in lanes too a tessellated sheet is drawn exactly once in every texel, of slivers and of triangles smaller than texels") {
+TEST_CASE(
+    "in lanes too a tessellated sheet is drawn exactly once in every texel, of slivers and of triangles smaller than texels") {
     dice roll{std::mt19937_64(34)};
     for (int i = 0; i < 24; ++i) {
         const int columns = 1 + (i * i * 5) % 150, rows = 1 + (i * 29) % 100; // the more unequal, the thinner
@@ -205,7 +206,8 @@ TEST_CASE("in lanes too a tessellated sheet is drawn exactly once in every texel
         for (int v = 0; v <= rows; ++v)
             for (int u = 0; u <= columns; ++u) {
                 const double du = u % columns == 0 ? 0.0 : roll(-0.24, 0.24), dv = v % rows == 0 ? 0.0 : roll(-0.24, 0.24);
-                sheet.positions.emplace_back(40.0 * (u + du) / columns - 20.0, 0.001 * roll(-1.0, 1.0), 40.0 * (v + dv) / rows - 20.0);
+                sheet.positions.emplace_back(40.0 * (u + du) / columns - 20.0, 0.001 * roll(-1.0, 1.0),
+                                             40.0 * (v + dv) / rows - 20.0);
             }
         for (int v = 0; v < rows; ++v)
             for (int u = 0; u < columns; ++u)
