@@ -1,4 +1,4 @@
-"""summary.py FILTER.json RECEIVE.json [--summary FILE.json]: what Google Benchmark measured, as ratios of medians of processor time.
+"""summary.py FILTER.json RECEIVE.json [--raster RASTER.json] [--summary FILE.json]: what Google Benchmark measured, as ratios of medians of processor time.
 
 The table goes to stdout; FILE.json is a flat object, name -> number. A name without a backend is that of simd<>, `.avx2` of
 simd<avx2>; of a filter, a name without `.exact` is the fast form."""
@@ -71,13 +71,34 @@ def receives(time):
     return ratios
 
 
+def rasters(path):
+    """Of all sizes of triangles and both lights the geometric mean; of small ones, under a sun, how many millions a second."""
+    time, ratios = medians(path), {}
+    rate = {run["run_name"]: run["items_per_second"] for run in json.loads(pathlib.Path(path).read_text())["benchmarks"]
+            if run.get("aggregate_name") == "median"}
+    for what, suffix in (("simd", ""), ("simd.avx2", ".avx2"), ("simd.sse2", ".sse2")):
+        logs = []
+        for name in time:
+            mine, light, edge, size = name.split("/")
+            if mine != what:
+                continue
+            over = time[f"scalar/{light}/{edge}/{size}"] / time[name]
+            ratios[f"raster.{light}.{edge}.lanes_over_scalar{suffix}"] = over
+            logs.append(math.log(over))
+        if logs:
+            ratios[f"raster.lanes_over_scalar{suffix}"] = math.exp(sum(logs) / len(logs))
+            ratios[f"raster.mtris_per_s{suffix}"] = rate[f"{what}/sun/e2/1024"] / 1e6
+    return ratios
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("filter")
     parser.add_argument("receive")
+    parser.add_argument("--raster")
     parser.add_argument("--summary", type=pathlib.Path)
     given = parser.parse_args()
-    ratios = filters(medians(given.filter)) | receives(medians(given.receive))
+    ratios = filters(medians(given.filter)) | receives(medians(given.receive)) | (rasters(given.raster) if given.raster else {})
     for name, ratio in sorted(ratios.items()):
         print(f"{name:44}{ratio:8.2f}")
     if not any("opencv" in name for name in ratios):

@@ -40,6 +40,9 @@ struct checks_of {
     int (*unorm16)(const std::uint16_t*, const double*);
     int (*half16)(const std::uint16_t*, const double*);
     int (*float32)(const float*, const double*);
+    int (*comparisons)(const double*, const double*);
+    int (*casts8)(const std::uint8_t*, unsigned, const double*);
+    int (*casts16)(const std::uint16_t*, unsigned, const double*);
 };
 } // namespace
 
@@ -282,6 +285,50 @@ TEST_CASE("codes are stored rounded down, halves and floats to nearest: on, just
                      target.float32(floats, numbers);
             wrong +=
                 target.half16(words, halves + 8 - target.double_lanes) + target.float32(floats, numbers + 8 - target.double_lanes);
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("doubles are compared, truncated and stored as floats as the emulated ones are, for infinities, NaN and all between") {
+    test::dice roll(414);
+    constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double odd[] = {0.0, -0.0, 1.0, -1.0, infinity, -infinity, nan, 0x1p-1074};
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int n = 0; n < 4000; ++n) {
+            double numbers[16], fitting[8];
+            for (double& each : numbers)
+                each = roll.one_in(3) ? odd[roll(0, 7)]
+                                      : std::ldexp(static_cast<double>(roll.unit()) - 0.5 + roll(-9, 9) * 0x1p-40, roll(-140, 20));
+            for (double& each : fitting)
+                each =
+                    roll.one_in(3) ? roll(-5, 5) + roll(-1, 1) * 0x1p-50 : (static_cast<double>(roll.unit()) - 0.5) * 0x1.fffffp31;
+            wrong += target.comparisons(numbers, fitting);
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("casters go onto pairs as the emulated lanes cast them: nearer ones, onto empty ones, where they are asked to, and not "
+          "beside") {
+    test::dice roll(415);
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int n = 0; n < 20000; ++n) {
+            std::uint8_t bytes[32];
+            std::uint16_t words[32];
+            double codes8[8], codes16[8];
+            const bool few = roll.one_in(2); // codes that are often equal
+            for (int i = 0; i < 32; ++i) {
+                const bool mask = i % 2 == 1 && roll.one_in(2);
+                bytes[i] = static_cast<std::uint8_t>(mask ? 255 * roll(0, 1) : few ? roll(0, 3) : roll(0, 255));
+                words[i] = static_cast<std::uint16_t>(mask ? 65535 * roll(0, 1) : few ? roll(0, 3) : roll(0, 65535));
+            }
+            for (double& each : codes8) each = (few ? roll(0, 3) : roll(0, 255)) + 0.999 * roll(0, 1);
+            for (double& each : codes16) each = (few ? roll(0, 3) : roll(0, 65535)) + 0.999 * roll(0, 1);
+            const auto where = static_cast<unsigned>(roll.one_in(3) ? 255 : roll(0, 255));
+            wrong += target.casts8(bytes, where, codes8) + target.casts16(words, where, codes16);
         }
         CHECK(wrong == 0);
     });

@@ -243,6 +243,44 @@ template <typename Isa> int wrong_doubles(const double* number) {
                           same::add_and_mask(e, 1 << 16, ~std::uint64_t{0x1FFFF}));
 }
 
+/// The same for comparisons of doubles, any of which may be none; and truncation, of those that fit 32 bits.
+template <typename Isa> int wrong_comparisons(const double* number, const double* fitting) {
+    using same = gnomon::emulated<Isa::bytes>;
+    const auto equal = [](const typename Isa::doubles& mine, const typename same::doubles& theirs) {
+        double a[8], b[8];
+        Isa::store(a, mine);
+        same::store(b, theirs);
+        for (int i = 0; i < Isa::double_lanes; ++i)
+            if (std::memcmp(&a[i], &b[i], sizeof(double)) != 0 && !(std::isnan(a[i]) && std::isnan(b[i]))) return false;
+        return true;
+    };
+    const auto a = Isa::load(number), b = Isa::load(number + 8);
+    const auto e = same::load(number), f = same::load(number + 8);
+    auto kept = a;
+    Isa::settle(kept);
+    float stored[9]{}, expected[9]{};
+    const auto rounded = Isa::store_floats(stored, a);
+    const auto nearest = same::store_floats(expected, e);
+    int n = !equal(rounded, nearest) + !equal(kept, e);
+    for (int i = 0; i < 9; ++i) n += std::memcmp(&stored[i], &expected[i], sizeof(float)) != 0 && !std::isnan(expected[i]);
+    return n + !equal(Isa::subtract(a, b), same::subtract(e, f)) + !equal(Isa::smaller(a, b), same::smaller(e, f)) +
+           !equal(Isa::larger(a, b), same::larger(e, f)) + (Isa::greater_bits(a, b) != same::greater_bits(e, f)) +
+           !equal(Isa::truncate(Isa::load(fitting)), same::truncate(same::load(fitting)));
+}
+
+/// Casts onto pairs in the middle of memory, where it must stay.
+template <typename Isa, gnomon::channel Channel>
+int wrong_casts(const typename Channel::storage* pairs, unsigned where, const double* codes) {
+    using same = gnomon::emulated<Isa::bytes>;
+    typename Channel::storage mine[32], theirs[32];
+    std::memcpy(mine, pairs, sizeof mine);
+    std::memcpy(theirs, pairs, sizeof theirs);
+    where &= (1u << Isa::double_lanes) - 1;
+    Isa::template cast_pairs<Channel>(mine + 6, where, Isa::load(codes));
+    same::template cast_pairs<Channel>(theirs + 6, where, same::load(codes));
+    return std::memcmp(mine, theirs, sizeof mine) != 0;
+}
+
 /// sum + a b, where the product is exact.
 template <typename Isa> int wrong_products(const double* sums, const double* whole) {
     using same = gnomon::emulated<Isa::bytes>;
@@ -316,6 +354,9 @@ inline constexpr checks_of all{Isa::float_lanes,
                                wrong_codes<Isa, gnomon::unorm8>,
                                wrong_codes<Isa, gnomon::unorm16>,
                                wrong_codes<Isa, gnomon::half16>,
-                               wrong_codes<Isa, gnomon::float32>};
+                               wrong_codes<Isa, gnomon::float32>,
+                               wrong_comparisons<Isa>,
+                               wrong_casts<Isa, gnomon::unorm8>,
+                               wrong_casts<Isa, gnomon::unorm16>};
 
 } // namespace CHECKS_ON

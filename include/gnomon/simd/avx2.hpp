@@ -194,6 +194,15 @@ struct avx2 {
         return _mm256_castsi256_pd(_mm256_and_si256(sum, _mm256_set1_epi64x(static_cast<long long>(mask))));
     }
 
+    GNOMON_LANES doubles subtract(doubles a, doubles b) noexcept { return _mm256_sub_pd(a, b); }
+    GNOMON_LANES doubles smaller(doubles a, doubles b) noexcept { return _mm256_min_pd(a, b); }
+    GNOMON_LANES doubles larger(doubles a, doubles b) noexcept { return _mm256_max_pd(a, b); }
+    GNOMON_LANES doubles truncate(doubles a) noexcept { return _mm256_cvtepi32_pd(_mm256_cvttpd_epi32(a)); }
+    GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept {
+        return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_GT_OQ)));
+    }
+    GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
+
     template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {
         if constexpr (std::same_as<Channel, unorm8>) {
             int four;
@@ -239,6 +248,34 @@ struct avx2 {
             static_assert(std::same_as<Channel, float32>, "gnomon: lanes know unorm8, unorm16, half16 and float32");
             _mm_storeu_ps(to, _mm_add_ps(_mm256_cvtpd_ps(a), _mm_setzero_ps()));
         }
+    }
+    GNOMON_LANES doubles store_floats(float* to, doubles a) noexcept {
+        const __m128 four = _mm_add_ps(_mm256_cvtpd_ps(a), _mm_setzero_ps());
+        _mm_storeu_ps(to, four);
+        return _mm256_cvtps_pd(four);
+    }
+    template <channel Channel>
+    GNOMON_LANES_VOID void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
+        constexpr int bits = 8 * sizeof(typename Channel::storage), full = (1 << bits) - 1;
+        if (bits == 8 && where != 0xF) { // no part of a register is stored by itself
+            double lane[4];
+            store(lane, codes);
+            emulated<bytes>::template cast_pairs<Channel>(to, where, {{lane[0], lane[1], lane[2], lane[3]}});
+            return;
+        }
+        const __m128i code = _mm256_cvttpd_epi32(codes), each = _mm_setr_epi32(1, 2, 4, 8);
+        const __m128i asked = _mm_cmpeq_epi32(_mm_and_si128(_mm_set1_epi32(static_cast<int>(where)), each), each);
+        const __m128i old = bits == 8 ? _mm_cvtepu16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(to)))
+                                      : _mm_maskload_epi32(reinterpret_cast<const int*>(to), asked);
+        const __m128i empty = _mm_cmpeq_epi32(_mm_srli_epi32(old, bits), _mm_setzero_si128());
+        const __m128i nearer = _mm_cmpgt_epi32(code, _mm_and_si128(old, _mm_set1_epi32(full)));
+        const __m128i take = _mm_and_si128(_mm_or_si128(empty, nearer), asked);
+        const __m128i pairs = _mm_or_si128(code, _mm_slli_epi32(_mm_set1_epi32(full), bits));
+        if constexpr (bits == 8)
+            _mm_storel_epi64(reinterpret_cast<__m128i*>(to),
+                             _mm_packus_epi32(_mm_blendv_epi8(old, pairs, take), _mm_setzero_si128()));
+        else
+            _mm_maskstore_epi32(reinterpret_cast<int*>(to), take, pairs);
     }
 
   private:

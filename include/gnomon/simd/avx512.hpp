@@ -190,6 +190,15 @@ struct avx512 {
         return _mm512_castsi512_pd(_mm512_and_si512(sum, _mm512_set1_epi64(static_cast<long long>(mask))));
     }
 
+    GNOMON_LANES doubles subtract(doubles a, doubles b) noexcept { return _mm512_sub_pd(a, b); }
+    GNOMON_LANES doubles smaller(doubles a, doubles b) noexcept { return _mm512_maskz_min_pd(eight, a, b); }
+    GNOMON_LANES doubles larger(doubles a, doubles b) noexcept { return _mm512_maskz_max_pd(eight, a, b); }
+    GNOMON_LANES doubles truncate(doubles a) noexcept {
+        return _mm512_maskz_cvtepi32_pd(eight, _mm512_maskz_cvttpd_epi32(eight, a));
+    }
+    GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept { return _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ); }
+    GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
+
     template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {
         if constexpr (std::same_as<Channel, unorm8>) {
             return _mm512_maskz_cvtepi32_pd(eight, _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
@@ -233,6 +242,26 @@ struct avx512 {
             static_assert(std::same_as<Channel, float32>, "gnomon: lanes know unorm8, unorm16, half16 and float32");
             _mm256_storeu_ps(to, _mm256_add_ps(_mm512_maskz_cvtpd_ps(eight, a), _mm256_setzero_ps()));
         }
+    }
+    GNOMON_LANES doubles store_floats(float* to, doubles a) noexcept {
+        const __m256 values = _mm256_add_ps(_mm512_maskz_cvtpd_ps(eight, a), _mm256_setzero_ps());
+        _mm256_storeu_ps(to, values);
+        return _mm512_maskz_cvtps_pd(eight, values);
+    }
+    template <channel Channel>
+    GNOMON_LANES_VOID void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
+        constexpr int bits = 8 * sizeof(typename Channel::storage), full = (1 << bits) - 1;
+        const __mmask8 asked = static_cast<__mmask8>(where);
+        const __m256i code = _mm512_maskz_cvttpd_epi32(eight, codes), depth = _mm256_set1_epi32(full);
+        const __m256i old =
+            bits == 8 ? _mm256_cvtepu16_epi32(_mm_maskz_loadu_epi16(asked, to)) : _mm256_maskz_loadu_epi32(asked, to);
+        const __mmask8 take = _kor_mask8(_mm256_mask_cmpgt_epi32_mask(asked, code, _mm256_and_si256(old, depth)),
+                                         _mm256_mask_testn_epi32_mask(asked, old, _mm256_slli_epi32(depth, bits)));
+        const __m256i pairs = _mm256_or_si256(code, _mm256_slli_epi32(depth, bits));
+        if constexpr (bits == 8)
+            _mm_mask_storeu_epi16(to, take, _mm256_maskz_cvtepi32_epi16(eight, pairs));
+        else
+            _mm256_mask_storeu_epi32(to, take, pairs);
     }
 
   private:

@@ -314,6 +314,29 @@ template <int Bytes> struct emulated {
         return each([&](int i) { return std::bit_cast<double>((std::bit_cast<std::uint64_t>(a.lane[i]) + addend) & mask); });
     }
 
+    [[nodiscard]] static doubles subtract(doubles a, doubles b) noexcept {
+        return each([&](int i) { return a.lane[i] - b.lane[i]; });
+    }
+    /// The smaller and the larger of two; `b` if they are equal or one is NaN.
+    [[nodiscard]] static doubles smaller(doubles a, doubles b) noexcept {
+        return each([&](int i) { return a.lane[i] < b.lane[i] ? a.lane[i] : b.lane[i]; });
+    }
+    [[nodiscard]] static doubles larger(doubles a, doubles b) noexcept {
+        return each([&](int i) { return a.lane[i] > b.lane[i] ? a.lane[i] : b.lane[i]; });
+    }
+    /// Without what follows the point. \pre -2^31 < a < 2^31
+    [[nodiscard]] static doubles truncate(doubles a) noexcept {
+        return each([&](int i) { return static_cast<double>(static_cast<std::int32_t>(a.lane[i])); });
+    }
+    /// Bit i is set where lane i of `a` is greater.
+    [[nodiscard]] static unsigned greater_bits(doubles a, doubles b) noexcept {
+        unsigned bits = 0;
+        for (int i = 0; i < double_lanes; ++i) bits |= (a.lane[i] > b.lane[i] ? 1u : 0u) << i;
+        return bits;
+    }
+    /// Nothing. Where a compiler would fuse a product with the sum it goes into, it keeps the product's own rounding.
+    static void settle(doubles&) noexcept {}
+
     /// Codes of stored channels, exactly.
     template <channel Channel> [[nodiscard]] static doubles codes(const typename Channel::storage* from) noexcept {
         return each([&](int i) { return static_cast<double>(Channel::code(from[i])); });
@@ -325,6 +348,21 @@ template <int Bytes> struct emulated {
     }
     template <channel Channel> static void store_codes(typename Channel::storage* to, doubles a) noexcept {
         for (int i = 0; i < double_lanes; ++i) to[i] = stored<Channel>(a.lane[i]);
+    }
+    /// Stores the nearest floats, -0 as 0, and returns them.
+    [[nodiscard]] static doubles store_floats(float* to, doubles a) noexcept {
+        store_codes<float32>(to, a);
+        return codes<float32>(to);
+    }
+    /// Casts onto texels of two channels that lie side by side, depth and mask, of whole codes: where a bit is set and the mask is 0
+    /// or the depth less than the code (rounded down), it becomes the depth, and the mask full. Nothing else is read or written.
+    template <channel Channel> static void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
+        for (int i = 0; i < double_lanes; ++i) {
+            const auto code = static_cast<typename Channel::storage>(codes.lane[i]);
+            if ((where >> i & 1) == 0 || (to[2 * i + 1] != 0 && code <= to[2 * i])) continue;
+            to[2 * i] = code;
+            to[2 * i + 1] = static_cast<typename Channel::storage>(Channel::scale);
+        }
     }
 
   private:

@@ -108,9 +108,17 @@ concept simd_isa =
         { Isa::divide(d, d) } -> std::same_as<typename Isa::doubles>;
         { Isa::add_product(d, d, d) } -> std::same_as<typename Isa::doubles>;
         { Isa::add_and_mask(d, bits, bits) } -> std::same_as<typename Isa::doubles>;
+        { Isa::subtract(d, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::smaller(d, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::larger(d, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::truncate(d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::greater_bits(d, d) } -> std::same_as<unsigned>;
+        { Isa::settle(d) };
         { Isa::template codes<unorm8>(codes) } -> std::same_as<typename Isa::doubles>;
         { Isa::template store_codes<float32>(numbers, f) };
         { Isa::template store_codes<unorm8>(codes, d) };
+        { Isa::store_floats(numbers, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::template cast_pairs<unorm8>(codes, unsigned{}, d) };
     };
 
 /// Lanes that sum four products of bytes at once. Optional: filters of bytes are quicker by them.

@@ -201,6 +201,15 @@ struct sse2 {
         return _mm_castsi128_pd(_mm_and_si128(sum, _mm_set1_epi64x(static_cast<long long>(mask))));
     }
 
+    GNOMON_LANES doubles subtract(doubles a, doubles b) noexcept { return _mm_sub_pd(a, b); }
+    GNOMON_LANES doubles smaller(doubles a, doubles b) noexcept { return _mm_min_pd(a, b); }
+    GNOMON_LANES doubles larger(doubles a, doubles b) noexcept { return _mm_max_pd(a, b); }
+    GNOMON_LANES doubles truncate(doubles a) noexcept { return _mm_cvtepi32_pd(_mm_cvttpd_epi32(a)); }
+    GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept {
+        return static_cast<unsigned>(_mm_movemask_pd(_mm_cmpgt_pd(a, b)));
+    }
+    GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
+
     template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {
         return _mm_set_pd(static_cast<double>(Channel::code(from[1])), static_cast<double>(Channel::code(from[0])));
     }
@@ -233,6 +242,16 @@ struct sse2 {
                 to[i] = static_cast<typename Channel::storage>(lane[i]);
             else
                 to[i] = Channel::store(lane[i]);
+    }
+    GNOMON_LANES doubles store_floats(float* to, doubles a) noexcept {
+        const floats two = _mm_add_ps(_mm_cvtpd_ps(a), _mm_setzero_ps());
+        _mm_storel_pi(reinterpret_cast<__m64*>(to), two);
+        return _mm_cvtps_pd(two);
+    }
+    template <channel Channel>
+    GNOMON_LANES_VOID void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
+        emulated<bytes>::template cast_pairs<Channel>(to, where,
+                                                      {{_mm_cvtsd_f64(codes), _mm_cvtsd_f64(_mm_unpackhi_pd(codes, codes))}});
     }
 
   private:
