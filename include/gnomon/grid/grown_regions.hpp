@@ -9,53 +9,38 @@ namespace gnomon {
 
 namespace detail {
 
-/// Disjoint intervals of columns, in order and apart: what a row of texels needs of the 64 tiles of a word. Two lists of at most 34
-/// intervals make one of at most 68.
+/// Disjoint intervals of columns, in order and apart: what a row of texels needs of the 64 tiles of a word. That are at most 34, and
+/// the difference of two lists at most 68. The ends lie apart in memory: written one by one, they shall not be read as a pair.
 struct span_list {
-    struct span {
-        int first, last;
-    };
-    span at[68];
+    int first[68], last[68]; ///< what they hold beyond `count` is nobody's
     int count = 0;
 
+    span_list() noexcept {} // not = default, which lets {} fill them
+
     /// What lies left of `from` or right of `to` is cut off; what touches the last span is joined to it.
-    void add(std::int64_t first, std::int64_t last, int from, int to) noexcept {
-        const span s{static_cast<int>(greater<std::int64_t>(first, from)), static_cast<int>(lesser<std::int64_t>(last, to))};
-        if (s.first >= s.last) return;
-        if (count > 0 && at[count - 1].last >= s.first)
-            at[count - 1].last = greater(at[count - 1].last, s.last);
-        else
-            at[count++] = s;
-    }
-    void add_runs(bit_word bits, int column, int tile, std::int64_t grow, int from, int to) noexcept {
-        const const_bit_row row{&bits, bits_per_word};
-        row.for_each_run([&](int first, int last) {
-            add(std::int64_t{column + first} * tile - grow, std::int64_t{column + last} * tile + grow, from, to);
-        });
+    void add(std::int64_t begin, std::int64_t end, int from, int to) noexcept {
+        const int x0 = static_cast<int>(greater<std::int64_t>(begin, from)), x1 = static_cast<int>(lesser<std::int64_t>(end, to));
+        if (x0 >= x1) return;
+        const bool joined = count > 0 && last[count - 1] >= x0;
+        count += joined ? 0 : 1;
+        if (!joined) first[count - 1] = x0;
+        last[count - 1] = joined ? greater(last[count - 1], x1) : x1;
     }
 };
 
-[[nodiscard]] inline span_list intersection(const span_list& a, const span_list& b) noexcept {
-    span_list both;
-    for (int i = 0, j = 0; i < a.count && j < b.count; a.at[i].last < b.at[j].last ? ++i : ++j)
-        both.add(a.at[i].first, a.at[i].last, b.at[j].first, b.at[j].last);
-    return both;
-}
-
 /// What is in `a` and not in `b`.
-[[nodiscard]] inline span_list difference(const span_list& a, const span_list& b) noexcept {
-    span_list left;
+inline void subtract(const span_list& a, const span_list& b, span_list& left) noexcept {
+    left.count = 0;
     for (int i = 0, j = 0; i < a.count; ++i) {
-        int from = a.at[i].first;
-        for (; j < b.count && b.at[j].last <= from; ++j) {
+        int from = a.first[i];
+        for (; j < b.count && b.last[j] <= from; ++j) {
         }
-        for (int k = j; k < b.count && b.at[k].first < a.at[i].last; ++k) {
-            left.add(from, b.at[k].first, from, a.at[i].last);
-            from = b.at[k].last;
+        for (int k = j; k < b.count && b.first[k] < a.last[i]; ++k) {
+            left.add(from, b.first[k], from, a.last[i]);
+            from = b.last[k];
         }
-        left.add(from, a.at[i].last, from, a.at[i].last);
+        left.add(from, a.last[i], from, a.last[i]);
     }
-    return left;
 }
 
 /// Rows of texels of a row of tiles that the same rows of tiles grow into: those from `first` to `last`, relative to it.
@@ -85,30 +70,24 @@ class grown_word {
 
     grown_word(const tile_grid& grid, int radius, int word) noexcept
         : grid_(grid), radius_(radius), word_(word), from_(static_cast<int>(std::int64_t{word} * bits_per_word * grid.tile())),
-          to_(static_cast<int>(lesser<std::int64_t>(std::int64_t{word + 1} * bits_per_word * grid.tile(), grid.size().width))) {}
+          to_(static_cast<int>(lesser<std::int64_t>(std::int64_t{word + 1} * bits_per_word * grid.tile(), grid.size().width))),
+          is_reached_(grid.guard() >= radius && grid.tile() >= radius) {}
 
     /// Goes to a band; answers whether the spans are others than before.
     bool go_to(int row, const band& b) noexcept {
+        reached_ = reached(row, word_);
+        row_ = row;
         first_ = greater(row + b.first, 0);
         last_ = static_cast<int>(lesser(std::int64_t{row} + b.last, std::int64_t{grid_.rows()} - 1));
-        // A guard band as wide as the radius marks all that is reached; there is nothing outside it.
-        const bit_word reached = grid_.guard() >= radius_ ? grid_.row(row).words[word_] : ~bit_word{0};
-        const key now{held(word_), reached, end_of_left(), begin_of_right()};
+        const key now{held(word_) & reached_, reached_, end_of_left(), begin_of_right()};
         if (now == at_) return false;
         at_ = now;
-        spans = {};
-        spans.add(from_, now.left, from_, to_);
-        spans.add_runs(now.held, word_ * bits_per_word, grid_.tile(), radius_, from_, to_);
-        spans.add(now.right, to_, from_, to_);
-        if (spans.count == 0 || reached == ~bit_word{0}) return true;
-        span_list marked;
-        marked.add_runs(reached, word_ * bits_per_word, grid_.tile(), 0, from_, to_);
-        spans = intersection(spans, marked);
+        find_spans();
         return true;
     }
     /// Goes where nothing is.
     bool leave() noexcept {
-        spans = {};
+        spans.count = 0;
         const bool was = at_ != key{};
         at_ = {};
         return was;
@@ -121,6 +100,25 @@ class grown_word {
         friend bool operator==(const key&, const key&) = default;
     };
 
+    void find_spans() noexcept {
+        const std::int64_t tile = grid_.tile();
+        spans.count = 0;
+        spans.add(from_, at_.left, from_, to_);
+        for (bit_word left = at_.held; left != 0;) {
+            const int first = std::countr_zero(left), last = first + std::countr_one(left >> first);
+            left &= last == bits_per_word ? 0 : ~bit_word{0} << last;
+            // Where no guard band reached a neighbour, no radius does.
+            const bool before = first == 0 || (at_.reached >> (first - 1) & 1) != 0;
+            const bool after = last == bits_per_word || (at_.reached >> last & 1) != 0;
+            spans.add(from_ + first * tile - (before ? radius_ : 0), from_ + last * tile + (after ? radius_ : 0), from_, to_);
+        }
+        spans.add(at_.right, to_, from_, to_);
+    }
+    /// The tiles of a word that a guard band reached in this row; all, if that tells nothing about the radius.
+    [[nodiscard]] bit_word reached(int row, int word) const noexcept {
+        return is_reached_ ? grid_.row(row).words[word] : ~bit_word{0};
+    }
+    /// The tiles that grow into this band.
     [[nodiscard]] bit_word held(int word) const noexcept {
         bit_word bits = 0;
         for (int y = first_; y <= last_; ++y) bits |= grid_.held(y).words[word];
@@ -128,20 +126,26 @@ class grown_word {
     }
     /// Where the tiles of the words to the left and to the right end and begin, grown.
     [[nodiscard]] std::int64_t end_of_left() const noexcept {
+        if ((reached_ & 1) == 0) return from_;
         const auto end = [&](int column) { return std::int64_t{column} * grid_.tile() + radius_; };
         for (int w = word_ - 1; w >= 0 && end((w + 1) * bits_per_word) > from_; --w)
-            if (const bit_word bits = held(w); bits != 0) return end((w + 1) * bits_per_word - std::countl_zero(bits));
+            if (const bit_word bits = held(w) & reached(row_, w); bits != 0)
+                return end((w + 1) * bits_per_word - std::countl_zero(bits));
         return from_;
     }
     [[nodiscard]] std::int64_t begin_of_right() const noexcept {
+        if (reached_ >> (bits_per_word - 1) == 0) return to_;
         const auto begin = [&](int column) { return std::int64_t{column} * grid_.tile() - radius_; };
         for (int w = word_ + 1; w < words_for(grid_.columns()) && begin(w * bits_per_word) < to_; ++w)
-            if (const bit_word bits = held(w); bits != 0) return begin(w * bits_per_word + std::countr_zero(bits));
+            if (const bit_word bits = held(w) & reached(row_, w); bits != 0)
+                return begin(w * bits_per_word + std::countr_zero(bits));
         return to_;
     }
 
     const tile_grid& grid_;
-    int radius_, word_, from_, to_, first_ = 0, last_ = 0;
+    int radius_, word_, from_, to_, row_ = 0, first_ = 0, last_ = 0;
+    bool is_reached_;
+    bit_word reached_ = 0;
     key at_{};
 };
 
@@ -151,27 +155,32 @@ template <typename F> class span_stack {
     explicit span_stack(F& f) noexcept : f_(f) {}
 
     void go_to(int y, const span_list& now) {
-        int i = 0, n = 0;
-        open next[68];
-        for (int s = 0; s < now.count; ++s) {
-            const span_list::span here = now.at[s];
-            while (i < count_ && at_[i].first < here.first) close(at_[i++], y);
-            const bool same = i < count_ && at_[i].first == here.first && at_[i].last == here.last;
-            next[n++] = same ? at_[i++] : open{here.first, here.last, y};
+        const columns& before = at_[current_];
+        columns& after = at_[1 - current_];
+        int i = 0;
+        for (after.count = 0; after.count < now.count; ++after.count) {
+            const int first = now.first[after.count], last = now.last[after.count];
+            for (; i < before.count && before.first[i] < first; ++i) close(before, i, y);
+            const bool same = i < before.count && before.first[i] == first && before.last[i] == last;
+            after.first[after.count] = first;
+            after.last[after.count] = last;
+            after.since[after.count] = same ? before.since[i++] : y;
         }
-        while (i < count_) close(at_[i++], y);
-        for (count_ = 0; count_ < n; ++count_) at_[count_] = next[count_];
+        for (; i < before.count; ++i) close(before, i, y);
+        current_ = 1 - current_;
     }
 
   private:
-    struct open {
-        int first, last, since;
+    struct columns {
+        int first[68], last[68], since[68];
+        int count = 0;
+        columns() noexcept {}
     };
-    void close(const open& o, int y) { f_(texel_rect{o.first, o.since, o.last, y}); }
+    void close(const columns& open, int i, int y) { f_(texel_rect{open.first[i], open.since[i], open.last[i], y}); }
 
     F& f_;
-    open at_[68];
-    int count_ = 0;
+    columns at_[2];
+    int current_ = 0;
 };
 
 /// Visits the bands of a word, but for those that no row of `rows` grows into: at(row, y, band), and beyond(y) where these begin.
@@ -219,12 +228,15 @@ template <typename F> void for_each_region_left(const tile_grid& before, const t
     radius = greater(radius, 0);
     for (int w = 0; w < words_for(before.columns()); ++w) {
         detail::grown_word was(before, radius, w), is(now, radius, w);
+        detail::span_list left;
         detail::span_stack stack(f);
         detail::for_each_band_of(
             before, radius,
             [&](int row, int y, const detail::band& b) {
                 const bool other = was.go_to(row, b);
-                if (is.go_to(row, b) || other) stack.go_to(y, difference(was.spans, is.spans));
+                if (!is.go_to(row, b) && !other) return;
+                subtract(was.spans, is.spans, left);
+                stack.go_to(y, left);
             },
             [&](int y) {
                 if (was.leave()) stack.go_to(y, was.spans);
