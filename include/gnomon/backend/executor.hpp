@@ -91,6 +91,7 @@ template <typename Walk> class band_cut {
     std::int64_t texels_;
     int bands_;
 };
+template <typename Walk> band_cut(const Walk&, int) -> band_cut<Walk>;
 
 } // namespace detail
 

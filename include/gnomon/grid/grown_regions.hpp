@@ -182,6 +182,7 @@ template <typename F> class span_stack {
     columns at_[2];
     int current_ = 0;
 };
+template <typename F> span_stack(F&) -> span_stack<F>;
 
 /// Visits the bands of a word, but for those that no row of `rows` grows into: at(row, y, band), and beyond(y) where these begin.
 template <typename At, typename Beyond> void for_each_band_of(const tile_grid& grid, int radius, At&& at, Beyond&& beyond) {
