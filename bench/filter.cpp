@@ -1,7 +1,7 @@
 // How long a Gaussian takes: the lanes of this processor, pinned and by themselves, against what memory allows and against OpenCV.
 //
 // Names are WHAT/FORMAT/kTAPS/SIZE, and all run in one process, so that their ratios mean something: bench/run prints these.
-//     fast, exact               simd<>; fast is eight_bit<gaussian> for 8-bit maps, and the same as exact for the others so far
+//     fast, exact               simd<>, fast<gaussian> and gaussian
 //     fast.avx2, exact.avx2     simd<avx2>
 //     blur, sep                 cv::GaussianBlur and cv::sepFilter2D in one thread, if CMake found OpenCV
 //     copy, stream              the floor: memcpy of the same bytes, and reading with stores that pass the caches by (kTAPS is k0)
@@ -61,12 +61,11 @@ template <typename Isa, kernel Kernel, typename Texel> void add_ours(const std::
 }
 
 template <kernel Kernel, typename Texel> void add_all(int size) {
-    using quick = std::conditional_t<std::same_as<Texel, rg8>, eight_bit<Kernel>, Kernel>;
-    add_ours<best_isa, quick, Texel>("fast", size);
+    add_ours<best_isa, fast<Kernel>, Texel>("fast", size);
     add_ours<best_isa, Kernel, Texel>("exact", size);
 #if GNOMON_X86
     if (best_lanes() >= cpu_level::avx2) {
-        add_ours<avx2, quick, Texel>("fast.avx2", size);
+        add_ours<avx2, fast<Kernel>, Texel>("fast.avx2", size);
         add_ours<avx2, Kernel, Texel>("exact.avx2", size);
     }
 #endif

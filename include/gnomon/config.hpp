@@ -1,6 +1,8 @@
 // gnomon: soft shadow maps. Every macro a user may set, and what the library demands of its compiler.
 #pragma once
 
+#include <gnomon/build.hpp>
+
 #include <cfloat>
 
 // GNOMON_ASSERT(condition, "sentence") checks a wrong call in debug builds. Define it before the first include to route it
@@ -13,8 +15,7 @@
 // clang-format off
 // NaN must compare false and a difference must not be reassociated: both decide whether a receiver is lit. g++ also tells of the
 // parts of -ffast-math: a reciprocal is no correctly rounded decode, and without signed zeros float32::store rounds nothing.
-#if (defined(__FAST_MATH__) || defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || \
-     defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__)) && !defined(GNOMON_ALLOW_FAST_MATH)
+#if defined(GNOMON_HAS_FAST_MATH) && !defined(GNOMON_ALLOW_FAST_MATH)
 #error "gnomon: -ffast-math and -ffinite-math-only break NaN handling and exact decisions, and so do the flags that -ffast-math is \
 made of. Compile the file that includes gnomon without them, or define GNOMON_ALLOW_FAST_MATH and accept that no bound is promised."
 #endif

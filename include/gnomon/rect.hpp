@@ -3,7 +3,7 @@
 
 #include <gnomon/unit.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// The size of a map in texels. Either side may be zero; a negative side counts as zero.
 struct extent {
@@ -99,4 +99,4 @@ inline constexpr int int_max = 2147483647;
     return {detail::floor_to_int(x0), detail::floor_to_int(y0), detail::ceil_to_int(x1), detail::ceil_to_int(y1)};
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -7,7 +7,7 @@
 
 #include <concepts>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// The size of a soft_shadow_map, in texels. Tiles of 16 to 64 texels serve most maps. An empty map is lit everywhere.
 struct map_size {
@@ -37,8 +37,9 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
         : run_(run), casters_({size.width, size.height}, Texel::clear()), soft_({size.width, size.height}, Texel::clear()),
           tiles_({size.width, size.height}, size.tile), filtered_(tiles_.tiles()), scratch_(size.width, size.bands) {}
 
-    /// How `shadow` and `receive` decide; no false shadow unless you say otherwise.
-    rule decision{};
+    /// How `shadow` and `receive` decide; no false shadow unless you say otherwise. It knows how often the filter rounds.
+    rule decision{.caster = {.roundings = filter_roundings<Texel, Kernel>},
+                  .far_bound = {.roundings = filter_roundings<Texel, Kernel>}};
 
     [[nodiscard]] extent size() const noexcept { return casters_.size(); }
     /// Where shadows may lie, this frame.
@@ -156,4 +157,4 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
     band_scratch<Texel, Kernel> scratch_;
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

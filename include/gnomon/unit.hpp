@@ -13,7 +13,7 @@
 
 #include <gnomon/config.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// `v` limited to [0, 1]; NaN becomes 0.
 template <typename Real> [[nodiscard]] constexpr Real saturate(Real v) noexcept {
@@ -46,4 +46,4 @@ struct depth_interval {
     }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -1,9 +1,11 @@
 """Includes run one way: unit, rect <- texel <- grid <- filter <- receive <- baseline, identity <- backend <- facade <- gl.
 
 geometry/ may see everything up to receive/, and is the only place of GLM; simd/ sees itself and texel/, and only backend/ sees it."""
+import re
+
 import headers
 
-ROOT = ["version", "config", "fwd", "unit", "rect"]  # these may see one another
+ROOT = ["version", "build", "config", "fwd", "unit", "rect"]  # these may see one another
 LAYERS = ["root", "texel", "grid", "filter", "receive", "baseline identity", "backend", "soft_shadow_map", "gnomon", "gl"]
 RANK = {name: rank for rank, names in enumerate(LAYERS) for name in names.split()}
 
@@ -39,6 +41,8 @@ def check(include, _compiler):
             continue
         if ("\n#pragma once" in text) == ("#ifdef GNOMON_ON" in text):  # the latter is included once for each target
             complaints.append(f"{header}: no #pragma once, or one in a header for several targets")
+        if re.search(r"^\s*namespace gnomon\b(?!::inline GNOMON_BUILD\b)", text, re.MULTILINE):
+            complaints.append(f"{header}: opens gnomon without its build; write namespace gnomon::inline GNOMON_BUILD")
         if "define GLM_" in text:
             complaints.append(f"{header}: defines a GLM macro, which changes GLM for everybody")
         for quote, name in headers.includes(include, header):
@@ -72,5 +76,7 @@ headers.main(check, [
     ("gnomon/texel/half.hpp", "  #  include <glm/vec3.hpp>\n", "GLM belongs"),
     ("gnomon/texel/half.hpp", '#include "channel.hpp"\n', "in quotes"),
     ("gnomon/unit.hpp", "#include <gnomon/rect.hpp>\n", "includes it back"),
+    ("gnomon/texel/half.hpp", "namespace gnomon::detail {\n}\n", "without its build"),
+    ("gnomon/texel/half.hpp", "namespace gnomon { inline int one() { return 1; } }\n", "without its build"),
     ("gnomon/geometry/light_frame.hpp", "#define GLM_FORCE_SWIZZLE\n", "GLM macro"),
 ])

@@ -51,6 +51,9 @@ template <typename Isa, gnomon::kernel Kernel, typename Texel> int differing(ima
     return n;
 }
 
+template <typename Isa, typename Kernel, typename Texel> using doubles = gnomon::on_any::wide_filter<Isa, Kernel, Texel, double>;
+template <typename Isa, typename Kernel, typename Texel> using floats = gnomon::on_any::wide_filter<Isa, Kernel, Texel, float>;
+
 struct own_channel : gnomon::unorm16 {}; // lanes cannot know what a user's channel does
 
 } // namespace
@@ -66,26 +69,30 @@ TEST_CASE_TEMPLATE("lanes filter as the oracle does, for every width to 67 and a
         for (int width = 0; width <= widest; ++width)
             for (int offset = 0; offset < alignments; offset += width % 5 == 0 ? 1 : 5) {
                 const image_view<const Texel> part(&memory(offset, 0), {width, height}, memory.view().stride());
-                wrong += differing<Isa, binomial<2>>(part, whole(part.size()));
+                wrong += differing<Isa, binomial<2>>(part, whole(part.size())) +
+                         differing<Isa, gnomon::fast<gaussian<3>>>(part, whole(part.size()));
             }
         CHECK(wrong == 0);
     });
 }
 
 TEST_CASE_TEMPLATE("lanes filter as the oracle does, for every shape of kernel and any part of a map", Texel, rg8, gnomon::rgb8,
-                   gnomon::rg16f, test::paper8) {
+                   gnomon::rgba16, gnomon::rg16f, test::paper8) {
     dice roll(402);
-    image<Texel> map({1100, 23}, Texel::clear()); // wider than a strip
-    for_each_texel({40, 0, 1100, 23}, [&](int x, int y) {
+    image<Texel> map({2060, 23}, Texel::clear()); // wider than a strip
+    for_each_texel({40, 0, 2060, 23}, [&](int x, int y) {
         if (!roll.one_in(3)) map(x, y) = test::any_caster<Texel>(roll);
     });
     for_each_isa([&]<typename Isa>() {
-        test::for_each_kernel(test::kernels<box<0>, binomial<4>, gaussian<3>, gaussian<17>>{}, [&]<typename Kernel>() {
-            CAPTURE(Kernel::radius);
-            for (const texel_rect part : {whole(map.size()), texel_rect{7, 3, 8, 4}, texel_rect{1090, 9, 1100, 23},
-                                          texel_rect{0, 0, 33, 1}, texel_rect{500, 2, 590, 21}, texel_rect{5, 5, 5, 9}})
-                CHECK(differing<Isa, Kernel>(image_view<const Texel>(map.view()), part) == 0);
-        });
+        test::for_each_kernel(test::kernels<box<0>, binomial<4>, gaussian<3>, gaussian<17>, gnomon::fast<tent<1>>,
+                                            gnomon::fast<gaussian<6>>, gnomon::fast<binomial<17>>>{},
+                              [&]<typename Kernel>() {
+                                  CAPTURE(Kernel::radius);
+                                  for (const texel_rect part :
+                                       {whole(map.size()), texel_rect{7, 3, 8, 4}, texel_rect{2040, 9, 2060, 23},
+                                        texel_rect{0, 0, 33, 1}, texel_rect{500, 2, 590, 21}, texel_rect{5, 5, 5, 9}})
+                                      CHECK(differing<Isa, Kernel>(image_view<const Texel>(map.view()), part) == 0);
+                              });
     });
 }
 
@@ -108,15 +115,27 @@ TEST_CASE_TEMPLATE("what lanes do not know is left to the oracle: a ratio of two
     CHECK(expected == made);
 }
 
-TEST_CASE("bytes with weights of eight bits go by whole numbers, all else by doubles") {
+TEST_CASE("lanes count in what is quickest and still exact: words, or doubles; and in floats where a kernel says fast") {
+    using gnomon::fast;
     using gnomon::on_any::byte_filter;
-    using gnomon::on_any::filter_of;
+    using gnomon::on_any::word_filter;
     using lanes = emulated<16>;
-    CHECK(std::same_as<filter_of<lanes, binomial<4>, rg8>, byte_filter<lanes, binomial<4>, rg8>>);
-    CHECK(std::same_as<filter_of<lanes, tent<1>, rg8>, byte_filter<lanes, tent<1>, rg8>>);
-    CHECK_FALSE(std::same_as<filter_of<lanes, box<1>, rg8>, byte_filter<lanes, box<1>, rg8>>);           // 1/9
-    CHECK_FALSE(std::same_as<filter_of<lanes, gaussian<2>, rg8>, byte_filter<lanes, gaussian<2>, rg8>>); // sixteen bits
-    CHECK_FALSE(std::same_as<filter_of<lanes, box<0>, rg8>, byte_filter<lanes, box<0>, rg8>>);           // 256 is no byte
-    CHECK_FALSE(std::same_as<filter_of<lanes, binomial<1>, gnomon::rgb8>, byte_filter<lanes, binomial<1>, gnomon::rgb8>>);
-    CHECK_FALSE(std::same_as<filter_of<lanes, binomial<1>, gnomon::rg16>, byte_filter<lanes, binomial<1>, gnomon::rg16>>);
+    const auto goes_by = []<template <typename, typename, typename> typename Filter, typename Texel, typename Kernel>() {
+        return std::same_as<gnomon::on_any::filter_of<lanes, Kernel, Texel>, Filter<lanes, Kernel, Texel>>;
+    };
+    CHECK(goes_by.operator()<byte_filter, rg8, binomial<4>>());
+    CHECK(goes_by.operator()<byte_filter, rg8, tent<1>>());
+    CHECK(goes_by.operator()<byte_filter, rg8, fast<gaussian<2>>>());
+    CHECK(goes_by.operator()<word_filter, gnomon::rgb8, binomial<1>>());
+    CHECK(goes_by.operator()<word_filter, gnomon::rgba8, fast<gaussian<2>>>());
+    CHECK(goes_by.operator()<word_filter, gnomon::rg16, fast<binomial<1>>>());
+    CHECK(goes_by.operator()<doubles, rg8, box<1>>());      // 1/9
+    CHECK(goes_by.operator()<doubles, rg8, gaussian<2>>()); // sixteen bits
+    CHECK(goes_by.operator()<doubles, rg8, box<0>>());      // 256 is no byte
+    CHECK(goes_by.operator()<doubles, rg8, fast<gaussian<33>>>());
+    CHECK(goes_by.operator()<doubles, gnomon::rg16, binomial<1>>());
+    CHECK(goes_by.operator()<doubles, gnomon::rg16, fast<box<1>>>()); // exact as it is
+    CHECK(goes_by.operator()<doubles, gnomon::rg32f, gaussian<2>>());
+    CHECK(goes_by.operator()<floats, gnomon::rg32f, fast<gaussian<2>>>());
+    CHECK(goes_by.operator()<floats, gnomon::rgb16f, fast<box<1>>>());
 }

@@ -1,4 +1,4 @@
-// The promises of bias.hpp behind real filters: box, tent and gaussian, rounded once by the library and twice by the definition.
+// The promises of bias.hpp behind real filters: box, tent and gaussian, by the library, exactly and fast, and rounded twice by the definition.
 #include <gnomon/receive/decide.hpp>
 
 #include "../support/bits.hpp"
@@ -24,25 +24,29 @@ namespace {
 
 /// A filter of the library, as a function, and its kernel, as numbers: so that only the filter itself is compiled for each.
 template <typename Texel> struct filter {
-    image<Texel> (*rounded_once)(const image<Texel>&);
+    image<Texel> (*filtered)(const image<Texel>&);
+    int roundings;
     test::taps kernel;
 };
 
-/// Three shapes at these radii.
+/// Three shapes at these radii, and two of them fast.
 template <typename Texel, int... Radii> std::vector<filter<Texel>> filters(std::integer_sequence<int, Radii...>) {
     std::vector<filter<Texel>> all;
-    test::for_each_kernel(test::kernels<box<Radii>..., tent<Radii>..., gaussian<Radii>...>{},
-                          [&all]<typename Kernel>() { all.push_back({&test::dense<Kernel, Texel>, test::taps_of<Kernel>()}); });
+    test::for_each_kernel(
+        test::kernels<box<Radii>..., tent<Radii>..., gaussian<Radii>..., fast<box<Radii>>..., fast<gaussian<Radii>>...>{},
+        [&all]<typename Kernel>() {
+            all.push_back({&test::dense<Kernel, Texel>, filter_roundings<Texel, Kernel>, test::taps_of<Kernel>()});
+        });
     return all;
 }
 
-/// No false shadow at `nearest(x, y)` and no false light behind `farthest(x, y)`, after one rounding and after two.
+/// No false shadow at `nearest(x, y)` and no false light behind `farthest(x, y)`, after the library's filter and after two roundings.
 template <typename Texel, typename Nearest, typename Farthest>
 void try_map(const filter<Texel>& f, const image<Texel>& map, const Nearest& nearest, const Farthest& farthest, sweep& wrong) {
-    const image<Texel> filtered[2] = {f.rounded_once(map), test::twice_rounded(map, f.kernel)};
-    for (const int roundings : {1, 2})
-        test::for_each_texel(whole(map.size()), [&](int x, int y) {
-            const Texel& texel = filtered[roundings - 1](x, y);
+    const std::pair<image<Texel>, int> results[] = {{f.filtered(map), f.roundings}, {test::twice_rounded(map, f.kernel), 2}};
+    for (const auto& [filtered, roundings] : results)
+        test::for_each_texel(whole(map.size()), [&, &filtered = filtered, roundings = roundings](int x, int y) {
+            const Texel& texel = filtered(x, y);
             if (!texel.occupied()) return;
             const auto shadowed = [&](float z, bias_towards towards) {
                 return shadow(texel, z, {.caster = {.towards = towards, .roundings = roundings}}) > 0.0f;

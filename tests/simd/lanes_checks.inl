@@ -21,7 +21,8 @@ template <typename Isa> int wrong_ints(const memory* m) {
     const std::uint32_t pair = (word & 0xFF) | (256 - (word & 0xFF)) % 256 << 8, weights = pair | pair << 16;
     memory below_2_24 = m[0];
     for (int i = 3; i < 64; i += 4) below_2_24.byte[i] = 0;
-    memory stored;
+    memory stored, bytes_in_words = m[1];
+    for (int i = 1; i < 64; i += 2) bytes_in_words.byte[i] = 0;
     Isa::store(stored.byte, a);
     return differing<Isa>(a, e) + (std::memcmp(stored.byte, m[0].byte, static_cast<std::size_t>(Isa::bytes)) != 0) +
            differing<Isa>(Isa::repeat32(word), same::repeat32(word)) +
@@ -31,7 +32,18 @@ template <typename Isa> int wrong_ints(const memory* m) {
            differing<Isa>(Isa::multiply_pairs8(Isa::repeat32(weights), b), same::multiply_pairs8(same::repeat32(weights), f)) +
            differing<Isa>(Isa::add16(a, b), same::add16(e, f)) + differing<Isa>(Isa::add_dot16(a, b, c), same::add_dot16(e, f, g)) +
            differing<Isa>(Isa::interleave_byte2(Isa::load(below_2_24.byte), b, c, d),
-                          same::interleave_byte2(same::load(below_2_24.byte), f, g, h));
+                          same::interleave_byte2(same::load(below_2_24.byte), f, g, h)) +
+           differing<Isa>(Isa::low_pairs8(a, b), same::low_pairs8(e, f)) +
+           differing<Isa>(Isa::high_pairs8(a, b), same::high_pairs8(e, f)) +
+           differing<Isa>(Isa::low_pairs16(a, b), same::low_pairs16(e, f)) +
+           differing<Isa>(Isa::high_pairs16(a, b), same::high_pairs16(e, f)) +
+           differing<Isa>(Isa::first_half(a, b), same::first_half(e, f)) +
+           differing<Isa>(Isa::second_half(a, b), same::second_half(e, f)) +
+           differing<Isa>(Isa::template shift_right32<15>(a), same::template shift_right32<15>(e)) +
+           differing<Isa>(Isa::narrow32(Isa::template shift_right32<16>(a), Isa::template shift_right32<16>(b)),
+                          same::narrow32(same::template shift_right32<16>(e), same::template shift_right32<16>(f))) +
+           differing<Isa>(Isa::narrow16(Isa::load(bytes_in_words.byte), Isa::load(bytes_in_words.byte)),
+                          same::narrow16(same::load(bytes_in_words.byte), same::load(bytes_in_words.byte)));
 }
 
 /// The same for arithmetic and comparisons of floats, any of which may be none: what is left of a NaN may be any NaN.
@@ -52,6 +64,8 @@ template <typename Isa> int wrong_floats(const float* number) {
     Isa::store(stored, a);
     return (std::memcmp(stored, number, width) != 0) + !equal(a, e) + !equal(Isa::repeat(number[3]), same::repeat(number[3])) +
            !equal(Isa::add(a, b), same::add(e, f)) + !equal(Isa::subtract(a, b), same::subtract(e, f)) +
+           !equal(Isa::multiply(a, b), same::multiply(e, f)) + !equal(Isa::divide(a, b), same::divide(e, f)) +
+           !equal(Isa::add_product(a, b, c), same::add_product(e, f, g)) +
            !equal(Isa::keep(Isa::greater(a, b), one), same::keep(same::greater(e, f), unit)) +
            !equal(Isa::keep(Isa::not_greater(a, b), one), same::keep(same::not_greater(e, f), unit)) +
            !equal(Isa::keep(Isa::both(Isa::greater(a, b), Isa::greater(a, c)), one),
@@ -95,6 +109,33 @@ template <typename Isa> int wrong_products(const double* sums, const double* who
                           same::add_product(same::load(sums), same::load(whole), same::load(whole + 8)));
 }
 
+/// Two floats of which neither is a number, or both are the same one.
+inline bool same_or_none(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b)); }
+
+/// The same in floats, and on both sides of each number.
+template <typename Isa, gnomon::channel Channel>
+int wrong_codes_in_floats(const typename Channel::storage* stored, const double* number) {
+    using same = gnomon::emulated<Isa::bytes>;
+    using storage = typename Channel::storage;
+    storage codes[16], written[17]{}, expected[17]{};
+    float mine[16], theirs[16];
+    for (int i = 0; i < 16; ++i) codes[i] = stored[i % Isa::double_lanes];
+    Isa::store(mine, Isa::template codes_of<Channel, 1>(codes, 0));
+    same::store(theirs, same::template codes_of<Channel, 1>(codes, 0));
+    int n = 0;
+    for (int i = 0; i < Isa::float_lanes; ++i) n += !same_or_none(mine[i], theirs[i]);
+    for (const float beyond : {-INFINITY, 0.0f, INFINITY}) {
+        for (int i = 0; i < 16; ++i) {
+            const auto f = static_cast<float>(number[i % Isa::double_lanes]);
+            mine[i] = beyond == 0.0f ? f : std::nextafter(f, beyond);
+        }
+        Isa::template store_codes<Channel>(written, Isa::load(mine));
+        same::template store_codes<Channel>(expected, same::load(mine));
+        for (int i = 0; i < 17; ++i) n += !same_or_none(Channel::code(written[i]), Channel::code(expected[i]));
+    }
+    return n;
+}
+
 /// Reads codes from storage and stores numbers as codes; NaN may be any NaN.
 template <typename Isa, gnomon::channel Channel> int wrong_codes(const typename Channel::storage* stored, const double* number) {
     using same = gnomon::emulated<Isa::bytes>;
@@ -111,6 +152,7 @@ template <typename Isa, gnomon::channel Channel> int wrong_codes(const typename 
         const float a = Channel::code(written[i]), b = Channel::code(expected[i]);
         n += std::memcmp(&written[i], &expected[i], sizeof(storage)) != 0 && !(std::isnan(a) && std::isnan(b));
     }
+    if constexpr (!Channel::whole_codes) n += wrong_codes_in_floats<Isa, Channel>(stored, number);
     return n;
 }
 

@@ -32,9 +32,14 @@ Number convolved(const gnomon::image<Texel>& from, const taps& k, int x, int y, 
     return sum;
 }
 
-/// A kernel in the hands of one who stores between the passes: every row is rounded to texels, then every column of those.
+/// Which pass comes first.
+enum class first { rows, columns };
+
+/// A kernel in the hands of one who stores between the passes: every row is rounded to texels, then every column of those; or the
+/// other way round.
 /// Sums of whole codes are exact; those of floats are doubles, whose own rounding is far below a texel's.
-template <gnomon::texel_format Texel> gnomon::image<Texel> twice_rounded(const gnomon::image<Texel>& from, const taps& k) {
+template <gnomon::texel_format Texel>
+gnomon::image<Texel> twice_rounded(const gnomon::image<Texel>& from, const taps& k, first order = first::rows) {
     using wide = typename Texel::linear_sum;
     const Texel clear = Texel::clear();
     const auto pass = [&](const gnomon::image<Texel>& in, int right, int down) {
@@ -50,7 +55,7 @@ template <gnomon::texel_format Texel> gnomon::image<Texel> twice_rounded(const g
         });
         return out;
     };
-    return pass(pass(from, 1, 0), 0, 1);
+    return order == first::rows ? pass(pass(from, 1, 0), 0, 1) : pass(pass(from, 0, 1), 1, 0);
 }
 
 } // namespace test

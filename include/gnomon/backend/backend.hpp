@@ -5,7 +5,7 @@
 #include <gnomon/grid/depth_range.hpp>
 #include <gnomon/receive/receive.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// Where the loops run. A backend filters a region, and receives a row or scattered points; it is a value, usually without state.
 ///
@@ -48,4 +48,4 @@ void receive(const Backend& run, const Row& texels, strided_span<const float> z,
     run.receive(strided_span<const texel_in<Row>>(strided_span(texels)), z, intensity, r);
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

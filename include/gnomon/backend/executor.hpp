@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 namespace detail {
 /// Stands for the jobs that an executor is given.
@@ -157,4 +157,4 @@ void receive(const Backend& run, image_view<T> map, image_view<Z> z, image_view<
     });
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

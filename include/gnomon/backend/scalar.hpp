@@ -3,12 +3,12 @@
 
 #include <gnomon/backend/backend.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// The oracle: plain loops over plain numbers, the same bits on every machine and compiler.
 struct scalar {
     template <texel_format Texel, kernel Kernel>
-    void filter_region(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
+    void filter_region(std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, texel_rect region,
                        filter_scratch<Texel, Kernel>& scratch) const noexcept {
         gnomon::filter_region(from, to, region, scratch);
     }
@@ -26,4 +26,4 @@ struct scalar {
 
 static_assert(backend_for<scalar, rg8, box<1>>);
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -25,7 +25,7 @@ GNOMON_TARGET_BEGIN(GNOMON_AVX512)
 GNOMON_TARGET_END
 #endif
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// The best lanes that the processor has: asked at run time, so no compiler flag is needed.
 struct best_isa {};
@@ -96,7 +96,7 @@ template <typename Isa = best_isa> struct simd {
                   "takes the best there are");
 
     template <texel_format Texel, kernel Kernel>
-    void filter_region(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
+    void filter_region(std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, texel_rect region,
                        filter_scratch<Texel, Kernel>& scratch) const noexcept {
         static_assert(kernel_is_sound<Kernel>());
         if constexpr (detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
@@ -133,4 +133,4 @@ template <typename Isa = best_isa> struct simd {
 
 static_assert(backend_for<simd<>, rg8, box<1>>);
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -9,52 +9,74 @@
 
 #include <array>
 #include <concepts>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #ifdef GNOMON_ON
-namespace gnomon::GNOMON_ON {
+namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
 /// Rows that are summed side by side, and bytes of a row that a strip takes.
-inline constexpr int rows_at_once = 4, strip_bytes = 2048;
+inline constexpr int rows_at_once = 4, strip_bytes = 4096;
 
-/// Any texel that is filtered channel by channel: sums in double, which are exact. (See filter/separable.hpp for the line's 36 bits.)
-template <typename Isa, kernel Kernel, texel_format Texel> struct wide_filter {
+/// What is read is called for ahead of time in a map as large as this, and a result as large as that is written past the caches:
+/// both where filtering and receiving together gained by it.
+inline constexpr std::int64_t prefetched_bytes = 4 << 20, streamed_bytes = 16 << 20;
+
+/// Calls for what the next rows hold at `i`, if they are to be called for.
+template <typename Isa, typename Storage> GNOMON_INLINE void call_for(const Storage* const* ahead, int i) noexcept {
+    if (ahead == nullptr) return;
+    GNOMON_UNROLL(4)
+    for (int j = 0; j < rows_at_once; ++j) Isa::prefetch(ahead[j] + i);
+}
+
+/// Any texel that is filtered channel by channel, in doubles, whose sums are exact, or in floats. (See filter/separable.hpp.)
+template <typename Isa, kernel Kernel, texel_format Texel, typename Number> struct wide_filter {
+    using by = detail::sums<Texel, Kernel>;
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
-    using doubles = typename Isa::doubles;
-    using element = double;
+    using element = Number;
+    using numbers = decltype(Isa::repeat(Number{}));
 
-    static constexpr int step = Isa::double_lanes; ///< channels that are made at a time
-    static constexpr int strip = strip_bytes / static_cast<int>(sizeof(double)) / Texel::channels * Texel::channels;
+    static constexpr int step = Isa::bytes / static_cast<int>(sizeof(Number)); ///< channels that are made at a time
+    static constexpr int strip = strip_bytes / static_cast<int>(sizeof(Number)) / Texel::channels * Texel::channels;
     static constexpr int margin = Kernel::radius * Texel::channels;
     static constexpr int line_size = step + strip + 2 * margin + step + Texel::channels; ///< for one row, in elements
     static constexpr int taps = 2 * Kernel::radius + 1;
     [[nodiscard]] static constexpr int place(int i) noexcept { return i; }
 
     static constexpr auto weights = [] {
-        std::array<double, static_cast<std::size_t>(taps + 2 * rows_at_once)> w{};
-        for (int t = 0; t < taps; ++t) w[static_cast<std::size_t>(t + rows_at_once)] = Kernel::weights[static_cast<std::size_t>(t)];
+        std::array<Number, static_cast<std::size_t>(taps + 2 * rows_at_once)> w{};
+        for (int t = 0; t < taps; ++t) w[static_cast<std::size_t>(t + rows_at_once)] = by::template weight<Number>(t);
         return w;
     }();
+    GNOMON_LANES numbers codes(const storage* from) noexcept {
+        if constexpr (by::in_floats)
+            return Isa::template codes_of<channel_type, 1>(from, 0);
+        else
+            return Isa::template codes<channel_type>(from);
+    }
 
-    static void columns(const storage* const* rows, double* line, int count) noexcept {
+    static void columns(const storage* const* rows, const storage* const* ahead, Number* line, int count) noexcept {
         for (int at = 0; at < count; at += step) {
             const int i = lesser(at, count - step);
-            doubles sum[rows_at_once];
+            call_for<Isa>(ahead, i);
+            numbers sum[rows_at_once];
             GNOMON_UNROLL(4)
-            for (int j = 0; j < rows_at_once; ++j) sum[j] = Isa::repeat(0.0);
+            for (int j = 0; j < rows_at_once; ++j) sum[j] = Isa::repeat(Number{});
             GNOMON_UNROLL(16)
             for (int t = 0; t < taps + rows_at_once - 1; ++t) {
-                const doubles codes = Isa::template codes<channel_type>(rows[t] + i);
-                const double* w = weights.data() + rows_at_once + t;
+                const numbers values = codes(rows[t] + i);
+                const Number* w = weights.data() + rows_at_once + t;
                 GNOMON_UNROLL(4)
                 for (int j = 0; j < rows_at_once; ++j)
                     if (channel_type::whole_codes || (t >= j && t < taps + j)) // an infinity times no weight is no zero
-                        sum[j] = Isa::add_product(sum[j], codes, Isa::repeat(w[-j]));
+                        sum[j] = Isa::add_product(sum[j], values, Isa::repeat(w[-j]));
             }
             GNOMON_UNROLL(4)
             for (int j = 0; j < rows_at_once; ++j) {
-                if constexpr (!channel_type::whole_codes) { // detail::to_bits<36>
+                if constexpr (!channel_type::whole_codes && !by::in_floats) { // detail::to_bits<36>
                     constexpr std::uint64_t dropped = (1 << 17) - 1;
                     sum[j] = Isa::add_and_mask(sum[j], dropped / 2 + 1, ~dropped);
                 }
@@ -63,14 +85,16 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct wide_filter {
         }
     }
 
-    static void clear(double* line, int first, int last) noexcept {
-        for (int i = first; i < last; ++i)
-            line[i] = Kernel::total * static_cast<double>(channel_type::code(Texel::clear().stored[i % Texel::channels]));
+    static void clear(Number* line, int first, int last) noexcept {
+        for (int i = first; i < last; ++i) {
+            const auto code = static_cast<Number>(channel_type::code(Texel::clear().stored[i % Texel::channels]));
+            line[i] = static_cast<Number>(by::weights_of::total) / by::unit * code;
+        }
     }
 
-    GNOMON_LANES_VOID void row(const double* line, storage* to) noexcept {
-        constexpr double whole = static_cast<double>(Kernel::total) * static_cast<double>(Kernel::total);
-        doubles sum = Isa::repeat(0.0);
+    GNOMON_LANES_VOID void row(const Number* line, storage* to) noexcept {
+        constexpr auto whole = static_cast<Number>(by::whole);
+        numbers sum = Isa::repeat(Number{});
         GNOMON_UNROLL(16)
         for (int t = 0; t < taps; ++t)
             sum = Isa::add_product(sum, Isa::load(line + t * Texel::channels),
@@ -78,75 +102,127 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct wide_filter {
         if constexpr (channel_type::whole_codes) {
             // Halves upwards, then down. The quarter keeps what is whole from being rounded below itself: sum and whole are whole, and
             // a quarter of 1/whole is more than the product can be wrong by, for every total there is.
-            constexpr double half = static_cast<double>(static_cast<std::uint64_t>(whole) / 2) + 0.25;
+            constexpr double half = static_cast<double>(by::whole / 2) + 0.25;
             sum = Isa::multiply(Isa::add(sum, Isa::repeat(half)), Isa::repeat(1.0 / whole));
-        } else {
+        } else if constexpr (by::whole != 1.0) {
             sum = Isa::divide(sum, Isa::repeat(whole));
         }
         Isa::template store_codes<channel_type>(to, sum);
     }
 };
 
+/// A kernel's weights, some side by side, as the products of whole numbers take them; zero beyond both ends.
+template <kernel Kernel, int Total> struct neighbouring_weights {
+    static constexpr int taps = 2 * Kernel::radius + 1;
+    template <int Bits, int Count>
+    static constexpr auto all = [] {
+        std::array<std::uint32_t, static_cast<std::size_t>(taps + 2 * rows_at_once)> w{};
+        for (int i = 0; i < taps + 2 * rows_at_once; ++i)
+            for (int k = 0; k < 32 / Bits; ++k)
+                if (const int t = i - rows_at_once + k % Count; t >= 0 && t < taps)
+                    w[static_cast<std::size_t>(i)] |=
+                        static_cast<std::uint32_t>(Kernel::weights[static_cast<std::size_t>(t)] * (Total / Kernel::total))
+                        << Bits * k;
+        return w;
+    }();
+    /// 32 bits that hold, of so many bits each, `Count` weights from tap `t` on, again and again.
+    template <int Bits, int Count = 2> [[nodiscard]] static constexpr std::uint32_t at(int t) noexcept {
+        return all<Bits, Count>[static_cast<std::size_t>(t + rows_at_once)];
+    }
+    static constexpr bool fit_signed_bytes = [] {
+        for (const int w : Kernel::weights)
+            if (w * (Total / Kernel::total) > 127) return false;
+        return true;
+    }();
+};
+
+/// Do bytes go by whole numbers of 16 bits? Weights of eight bits do.
+template <kernel Kernel>
+inline constexpr bool in_eight_bits = Kernel::radius > 0 && Kernel::total <= 256 && 256 % Kernel::total == 0;
+
 /// A pair of bytes and a kernel of 8-bit weights: 16-bit sums of columns, exact in 8.8, then 32-bit sums of these. Pixels are taken
 /// less 128 and column sums less 2^15, for the products of processors are of one unsigned and one signed factor, or of two signed.
 template <typename Isa, kernel Kernel, texel_format Texel> struct byte_filter {
+    using weights = neighbouring_weights<typename detail::sums<Texel, Kernel>::weights_of, 256>;
     using storage = typename Texel::storage;
     using ints = typename Isa::ints;
     using element = std::int16_t;
 
     static constexpr int step = Isa::bytes;
-    static constexpr int strip = strip_bytes;
+    static constexpr int strip = strip_bytes / 2;
     static constexpr int margin = Kernel::radius * Texel::channels;
     static constexpr int plane_size = (step + strip + 2 * margin + step + Texel::channels) / 2; ///< depths first, masks behind them
     static constexpr int line_size = 2 * plane_size;
     static constexpr int taps = 2 * Kernel::radius + 1;
     [[nodiscard]] static constexpr int place(int i) noexcept { return i / 2; }
 
-    /// weight t beside weight t + 1, in each 32 bits; zero beyond both ends.
-    template <int Bits>
-    static constexpr auto pairs = [] {
-        std::array<std::uint32_t, static_cast<std::size_t>(taps + 2 * rows_at_once)> p{};
-        const auto weight = [](int t) {
-            return t < 0 || t >= taps
-                       ? 0u
-                       : static_cast<std::uint32_t>(Kernel::weights[static_cast<std::size_t>(t)] * (256 / Kernel::total));
-        };
-        for (int t = -rows_at_once; t < taps + rows_at_once; ++t) {
-            const std::uint32_t pair = weight(t) | weight(t + 1) << Bits;
-            p[static_cast<std::size_t>(t + rows_at_once)] = Bits == 8 ? pair | pair << 16 : pair;
-        }
-        return p;
-    }();
-    template <int Bits> GNOMON_LANES ints pair(int t) noexcept {
-        return Isa::repeat32(pairs<Bits>[static_cast<std::size_t>(t + rows_at_once)]);
-    }
+    /// Four rows at a time, where lanes sum four products of bytes.
+    static constexpr bool by_fours = sums_quads<Isa> && weights::fit_signed_bytes;
 
-    static void columns(const storage* const* rows, std::int16_t* line, int count) noexcept {
-        const ints sign = Isa::repeat32(0x80808080u);
+    static void columns(const storage* const* rows, const storage* const* ahead, std::int16_t* line, int count) noexcept {
         for (int at = 0; at < count; at += step) {
             const int i = lesser(at, count - step);
+            call_for<Isa>(ahead, i);
             ints depth[rows_at_once], mask[rows_at_once];
-            GNOMON_UNROLL(4)
-            for (int j = 0; j < rows_at_once; ++j) depth[j] = mask[j] = Isa::repeat32(0);
-            GNOMON_UNROLL(1)
-            for (int t = 0; t < taps + rows_at_once - 1; t += 2) {
-                const ints above = Isa::exclusive_or(Isa::load(rows[t] + i), sign),
-                           below = Isa::exclusive_or(Isa::load(rows[t + 1] + i), sign);
-                const ints depths = Isa::even_pairs8(above, below), masks = Isa::odd_pairs8(above, below);
-                GNOMON_UNROLL(4)
-                for (int j = 0; j < rows_at_once; ++j) {
-                    const ints w = pair<8>(t - j);
-                    depth[j] = Isa::add16(depth[j], Isa::multiply_pairs8(w, depths));
-                    mask[j] = Isa::add16(mask[j], Isa::multiply_pairs8(w, masks));
-                    Isa::settle(depth[j]);
-                    Isa::settle(mask[j]);
-                }
-            }
+            if constexpr (by_fours)
+                sum_fours(rows, i, depth, mask);
+            else
+                sum_pairs(rows, i, depth, mask);
             GNOMON_UNROLL(4)
             for (int j = 0; j < rows_at_once; ++j) {
                 Isa::store(line + j * line_size + i / 2, depth[j]);
                 Isa::store(line + j * line_size + plane_size + i / 2, mask[j]);
             }
+        }
+    }
+
+    GNOMON_LANES_VOID void sum_pairs(const storage* const* rows, int i, ints* depth, ints* mask) noexcept {
+        const ints sign = Isa::repeat32(0x80808080u);
+        GNOMON_UNROLL(4)
+        for (int j = 0; j < rows_at_once; ++j) depth[j] = mask[j] = Isa::repeat32(0);
+        GNOMON_UNROLL(1)
+        for (int t = 0; t < taps + rows_at_once - 1; t += 2) {
+            const ints above = Isa::exclusive_or(Isa::load(rows[t] + i), sign),
+                       below = Isa::exclusive_or(Isa::load(rows[t + 1] + i), sign);
+            const ints depths = Isa::even_pairs8(above, below), masks = Isa::odd_pairs8(above, below);
+            GNOMON_UNROLL(4)
+            for (int j = 0; j < rows_at_once; ++j) {
+                const ints w = Isa::repeat32(weights::template at<8>(t - j));
+                depth[j] = Isa::add16(depth[j], Isa::multiply_pairs8(w, depths));
+                mask[j] = Isa::add16(mask[j], Isa::multiply_pairs8(w, masks));
+                Isa::settle(depth[j]);
+                Isa::settle(mask[j]);
+            }
+        }
+    }
+
+    GNOMON_LANES_VOID void sum_fours(const storage* const* rows, int i, ints* depth, ints* mask) noexcept {
+        ints sum[rows_at_once][4];
+        GNOMON_UNROLL(4)
+        for (int j = 0; j < rows_at_once; ++j) sum[j][0] = sum[j][1] = sum[j][2] = sum[j][3] = Isa::repeat32(0xFFFF8000u); // -2^15
+        GNOMON_UNROLL(1)
+        for (int t = 0; t < taps + rows_at_once - 1; t += 4) {
+            const ints a = Isa::load(rows[t] + i), b = Isa::load(rows[t + 1] + i), c = Isa::load(rows[t + 2] + i),
+                       d = Isa::load(rows[t + 3] + i);
+            const ints low_ab = Isa::low_pairs8(a, b), low_cd = Isa::low_pairs8(c, d);
+            const ints high_ab = Isa::high_pairs8(a, b), high_cd = Isa::high_pairs8(c, d);
+            const ints values[4] = {Isa::low_pairs16(low_ab, low_cd), Isa::high_pairs16(low_ab, low_cd),
+                                    Isa::low_pairs16(high_ab, high_cd), Isa::high_pairs16(high_ab, high_cd)};
+            GNOMON_UNROLL(4)
+            for (int j = 0; j < rows_at_once; ++j) {
+                const ints w = Isa::repeat32(weights::template at<8, 4>(t - j));
+                GNOMON_UNROLL(4)
+                for (int k = 0; k < 4; ++k) {
+                    sum[j][k] = Isa::add_dot8(sum[j][k], w, values[k]);
+                    Isa::settle(sum[j][k]);
+                }
+            }
+        }
+        GNOMON_UNROLL(4)
+        for (int j = 0; j < rows_at_once; ++j) { // depth and mask in turn
+            const ints first = Isa::narrow32(sum[j][0], sum[j][1]), second = Isa::narrow32(sum[j][2], sum[j][3]);
+            depth[j] = Isa::even_words(first, second);
+            mask[j] = Isa::odd_words(first, second);
         }
     }
 
@@ -168,7 +244,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct byte_filter {
             Isa::settle(masks);
             GNOMON_UNROLL(2)
             for (int odd = 0; odd < 2; ++odd) { // an odd one finds its taps in the same pairs, one place later
-                const ints w = pair<16>(t - odd);
+                const ints w = Isa::repeat32(weights::template at<16>(t - odd));
                 depth[odd] = Isa::add_dot16(depth[odd], w, depths);
                 mask[odd] = Isa::add_dot16(mask[odd], w, masks);
                 Isa::settle(depth[odd]);
@@ -179,11 +255,123 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct byte_filter {
     }
 };
 
-/// What serves a texel and a kernel best. Both give the same bits where both can.
+/// Whole codes of any number of channels by whole numbers. Bytes and weights of eight bits: column sums of 16 bits, exact, and one
+/// rounding, as byte_filter; 16-bit codes and weights of 15 bits: sums of 32 bits, rounded to 16 after each pass. Codes and column
+/// sums are taken less half their range.
+template <typename Isa, kernel Kernel, texel_format Texel> struct word_filter {
+    static constexpr bool bytes = sizeof(typename Texel::storage) == 1;
+    static constexpr int weight_bits = bytes ? 8 : 15;
+    using weights = neighbouring_weights<typename detail::sums<Texel, Kernel>::weights_of, 1 << weight_bits>;
+    using storage = typename Texel::storage;
+    using ints = typename Isa::ints;
+    using element = std::int16_t;
+
+    static constexpr int step = Isa::bytes / static_cast<int>(sizeof(storage));
+    static constexpr int words = Isa::bytes / 2; ///< elements of the line in a register
+    static constexpr int strip = strip_bytes / 2 / Texel::channels * Texel::channels;
+    static constexpr int margin = Kernel::radius * Texel::channels;
+    static constexpr int line_size = step + strip + 2 * margin + step + Texel::channels;
+    static constexpr int taps = 2 * Kernel::radius + 1;
+    [[nodiscard]] static constexpr int place(int i) noexcept { return i; }
+
+    struct pair_of_sums {
+        ints low, high;
+    };
+
+    static void columns(const storage* const* rows, const storage* const* ahead, std::int16_t* line, int count) noexcept {
+        const ints sign = Isa::repeat32(bytes ? 0x80808080u : 0x80008000u), start = Isa::repeat32(bytes ? 0 : 1u << 14);
+        for (int at = 0; at < count; at += step) {
+            const int i = lesser(at, count - step);
+            call_for<Isa>(ahead, i);
+            pair_of_sums sum[rows_at_once];
+            GNOMON_UNROLL(4)
+            for (int j = 0; j < rows_at_once; ++j) sum[j] = {start, start};
+            GNOMON_UNROLL(1)
+            for (int t = 0; t < taps + rows_at_once - 1; t += 2) {
+                const ints above = Isa::exclusive_or(Isa::load(rows[t] + i), sign),
+                           below = Isa::exclusive_or(Isa::load(rows[t + 1] + i), sign);
+                const pair_of_sums values = pairs_of(above, below);
+                GNOMON_UNROLL(4)
+                for (int j = 0; j < rows_at_once; ++j) {
+                    const ints w = Isa::repeat32(weights::template at<bytes ? 8 : 16>(t - j));
+                    sum[j] = {add(sum[j].low, w, values.low), add(sum[j].high, w, values.high)};
+                    Isa::settle(sum[j].low);
+                    Isa::settle(sum[j].high);
+                }
+            }
+            GNOMON_UNROLL(4)
+            for (int j = 0; j < rows_at_once; ++j) {
+                std::int16_t* const to = line + j * line_size + i;
+                if constexpr (bytes) {
+                    Isa::store(to, Isa::first_half(sum[j].low, sum[j].high));
+                    Isa::store(to + words, Isa::second_half(sum[j].low, sum[j].high));
+                } else {
+                    Isa::store(to, rounded<15>(sum[j]));
+                }
+            }
+        }
+    }
+
+    static void clear(std::int16_t* line, int first, int last) noexcept {
+        for (int i = first; i < last; ++i) {
+            const int code = Texel::clear().stored[i % Texel::channels];
+            line[i] = static_cast<std::int16_t>((bytes ? code * 256 : code) - 32768);
+        }
+    }
+
+    GNOMON_LANES_VOID void row(const std::int16_t* line, storage* to) noexcept {
+        if constexpr (bytes)
+            Isa::store(to, Isa::narrow16(rounded<16>(sum_of(line)), rounded<16>(sum_of(line + words))));
+        else
+            Isa::store(to, Isa::exclusive_or(rounded<15>(sum_of(line)), Isa::repeat32(0x80008000u)));
+    }
+
+  private:
+    GNOMON_LANES pair_of_sums pairs_of(ints a, ints b) noexcept {
+        if constexpr (bytes)
+            return {Isa::low_pairs8(a, b), Isa::high_pairs8(a, b)};
+        else
+            return {Isa::low_pairs16(a, b), Isa::high_pairs16(a, b)};
+    }
+    GNOMON_LANES ints add(ints sum, ints w, ints values) noexcept {
+        if constexpr (bytes)
+            return Isa::add16(sum, Isa::multiply_pairs8(w, values));
+        else
+            return Isa::add_dot16(sum, w, values);
+    }
+    template <int Bits> GNOMON_LANES ints rounded(pair_of_sums sum) noexcept {
+        return Isa::narrow32(Isa::template shift_right32<Bits>(sum.low), Isa::template shift_right32<Bits>(sum.high));
+    }
+    /// A register's worth of the line, with what lies around it.
+    GNOMON_LANES pair_of_sums sum_of(const std::int16_t* line) noexcept {
+        const ints start = Isa::repeat32(bytes ? (1u << 23) + (1u << 15) : 1u << 14); // 256 * 2^15 that the columns lack; a half
+        pair_of_sums sum = {start, start};
+        GNOMON_UNROLL(2)
+        for (int t = 0; t < taps; t += 2) {
+            const ints here = Isa::load(line + t * Texel::channels), next = Isa::load(line + (t + 1) * Texel::channels);
+            const ints w = Isa::repeat32(weights::template at<16>(t));
+            sum = {Isa::add_dot16(sum.low, w, Isa::low_pairs16(here, next)),
+                   Isa::add_dot16(sum.high, w, Isa::high_pairs16(here, next))};
+            Isa::settle(sum.low);
+            Isa::settle(sum.high);
+        }
+        return sum;
+    }
+};
+
+/// What serves a texel and a kernel best. All give the same bits where several can.
+template <typename Isa, kernel Kernel, texel_format Texel> consteval auto choose_filter() {
+    using by = detail::sums<Texel, Kernel>;
+    constexpr bool bytes = std::same_as<typename Texel::channel_type, unorm8> && in_eight_bits<typename by::weights_of>;
+    if constexpr (bytes && Texel::channels == 2)
+        return std::type_identity<byte_filter<Isa, Kernel, Texel>>{};
+    else if constexpr (bytes || by::stored_between)
+        return std::type_identity<word_filter<Isa, Kernel, Texel>>{};
+    else
+        return std::type_identity<wide_filter<Isa, Kernel, Texel, std::conditional_t<by::in_floats, float, double>>>{};
+}
 template <typename Isa, kernel Kernel, texel_format Texel>
-using filter_of = std::conditional_t<std::same_as<typename Texel::channel_type, unorm8> && Texel::channels == 2 &&
-                                         (Kernel::radius > 0) && (Kernel::total <= 256) && 256 % Kernel::total == 0,
-                                     byte_filter<Isa, Kernel, Texel>, wide_filter<Isa, Kernel, Texel>>;
+using filter_of = typename decltype(choose_filter<Isa, Kernel, Texel>())::type;
 
 /// A row of texels as a row of channels: the object is the memory.
 template <texel_format Texel> const typename Texel::storage* channels_of(const Texel* row) noexcept {
@@ -193,18 +381,37 @@ template <texel_format Texel> typename Texel::storage* channels_of(Texel* row) n
     return reinterpret_cast<typename Texel::storage*>(row);
 }
 
+/// Copies so many bytes past the caches, as far as whole registers reach.
+template <typename Isa> void stream(void* to, const void* from, std::size_t bytes) noexcept {
+    auto* const out = static_cast<unsigned char*>(to);
+    const auto* const in = static_cast<const unsigned char*>(from);
+    constexpr auto step = static_cast<std::size_t>(Isa::bytes);
+    std::size_t i = (step - reinterpret_cast<std::uintptr_t>(to) % step) % step;
+    i = i < bytes ? i : bytes;
+    std::memcpy(out, in, i);
+    for (; i + step <= bytes; i += step) Isa::stream(out + i, Isa::load(in + i));
+    std::memcpy(out + i, in + i, bytes - i);
+}
+
 /// filter_region in lanes, for a region within both images. False, and nothing done, where rows are shorter than a register.
 template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter_rows(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
     using pass = filter_of<Isa, Kernel, Texel>;
     using storage = typename Texel::storage;
     constexpr int channels = Texel::channels, margin = pass::margin, taps = 2 * Kernel::radius + 1;
+    constexpr int rows_summed = taps + rows_at_once - 1; // and a few more are told, for those that take them by twos and fours
     const int row_size = from.width() * channels;
     if (row_size < pass::step) return false;
+    const bool prefetched =
+        std::int64_t{from.height()} * from.width() * static_cast<std::int64_t>(sizeof(Texel)) >= prefetched_bytes;
+    // What no cache keeps until it is read need not push out of it what will be read.
+    const bool past_caches =
+        static_cast<std::int64_t>(region.width()) * region.height() * static_cast<std::int64_t>(sizeof(Texel)) >= streamed_bytes;
 
+    alignas(64) storage made[static_cast<std::size_t>(pass::strip + pass::step)];
     alignas(64) typename pass::element line[static_cast<std::size_t>(rows_at_once * pass::line_size)];
     Texel nothing[static_cast<std::size_t>((pass::strip + 2 * margin + pass::step + channels - 1) / channels)];
-    const bool beyond = region.y0 < Kernel::radius || region.y1 > from.height() - Kernel::radius - rows_at_once;
+    const bool beyond = region.y0 < Kernel::radius || region.y1 > from.height() - Kernel::radius - 2 * rows_at_once;
     if (beyond)
         for (Texel& each : nothing) each = Texel::clear();
 
@@ -214,35 +421,36 @@ bool filter_rows(image_view<const Texel> from, image_view<Texel> to, texel_rect 
         const int last = greater(lesser(x1 + margin, row_size), pass::step);
         const int first = greater(lesser(x0 - margin, last - pass::step), 0);
         for (int y = region.y0; y < region.y1; y += rows_at_once) {
-            const storage* rows[static_cast<std::size_t>(taps + rows_at_once)];
-            for (int t = 0; t < taps + rows_at_once - 1; ++t) {
+            const storage* rows[static_cast<std::size_t>(rows_summed + rows_at_once)];
+            for (int t = 0; t < rows_summed + rows_at_once; ++t) {
                 const int row = y + t - Kernel::radius;
                 rows[t] =
                     row >= 0 && row < from.height() ? channels_of(from.row(row)) + first : channels_of(nothing) + first % channels;
             }
             typename pass::element* const sums = line + pass::place(pass::step); // of the column x0 - margin
-            pass::columns(rows, sums + pass::place(first - (x0 - margin)), last - first);
+            pass::columns(rows, prefetched ? rows + rows_summed : nullptr, sums + pass::place(first - (x0 - margin)), last - first);
             for (int j = 0; j < lesser(rows_at_once, region.y1 - y); ++j) {
                 typename pass::element* const here = sums + j * pass::line_size;
                 pass::clear(here, 0, -(x0 - margin));
                 const int end = x1 - x0 + 2 * margin; // and one texel more, which a pair of taps may read without a weight
                 pass::clear(here, lesser(row_size - (x0 - margin), end), end + channels);
-                storage* const out = channels_of(to.row(y + j)) + x0;
+                storage* const there = channels_of(to.row(y + j)) + x0;
+                storage* const out = past_caches || x1 - x0 < pass::step ? made : there;
                 for (int at = 0; at < x1 - x0; at += pass::step) {
-                    if (x1 - x0 < pass::step) {
-                        storage part[static_cast<std::size_t>(pass::step)];
-                        pass::row(here, part);
-                        std::memcpy(out, part, static_cast<std::size_t>(x1 - x0) * sizeof(storage));
-                        break;
-                    }
-                    const int i = lesser(at, x1 - x0 - pass::step);
+                    const int i = greater(lesser(at, x1 - x0 - pass::step), 0);
                     pass::row(here + pass::place(i), out + i);
                 }
+                const auto bytes = static_cast<std::size_t>(x1 - x0) * sizeof(storage);
+                if (past_caches)
+                    stream<Isa>(there, made, bytes);
+                else if (out == made)
+                    std::memcpy(there, made, bytes);
             }
         }
     }
+    if (past_caches) Isa::fence();
     return true;
 }
 
-} // namespace gnomon::GNOMON_ON
+} // namespace gnomon::inline GNOMON_BUILD::GNOMON_ON
 #endif

@@ -9,7 +9,7 @@
 #include <limits>
 
 #ifdef GNOMON_ON
-namespace gnomon::GNOMON_ON {
+namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
 /// What lanes decide themselves: whole codes of premultiplied pairs that no receiver bounds.
 template <texel_format Texel>
@@ -74,5 +74,5 @@ void receive_row(strided_span<const Texel> texels, strided_span<const float> z, 
     }
 }
 
-} // namespace gnomon::GNOMON_ON
+} // namespace gnomon::inline GNOMON_BUILD::GNOMON_ON
 #endif

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A separable filter: 2 * radius + 1 whole weights, whose sum is `total`; a tap counts weight / total.
 ///
@@ -158,19 +158,27 @@ template <int Radius, int SigmaPercent = 50> struct gaussian {
     }();
 };
 
-/// Another kernel in weights of eight bits, within one unit in 256 of its proportions, so a weight may be one unit above its inner
-/// neighbour. For 8-bit maps, which the lanes of backend/simd.hpp then filter in whole numbers, several times as fast. `binomial` up
-/// to R = 4 is one already, and `tent` of R = 1, 3, 7 and 15.
-template <kernel Kernel> struct eight_bit {
-    static_assert(Kernel::radius > 0 && Kernel::radius <= 32,
-                  "gnomon: eight_bit<Kernel>: the radius must be 1..32; beyond, 256 units are too few for the weights of a kernel");
+namespace detail {
+
+/// A kernel's proportions in whole weights of another total, within one unit of each.
+template <kernel Kernel, int Total> struct in_units {
     static constexpr int radius = Kernel::radius;
-    static constexpr int total = 256;
+    static constexpr int total = Total;
     static constexpr auto weights = [] {
         std::array<int, static_cast<std::size_t>(radius + 1)> proportions{};
         for (std::size_t i = 0; i <= radius; ++i) proportions[i] = Kernel::weights[radius + i];
-        return detail::apportion<radius, total>(proportions);
+        return apportion<radius, total>(proportions);
     }();
 };
 
-} // namespace gnomon
+} // namespace detail
+
+/// Another kernel in weights of eight bits, within one unit in 256 of its proportions, so a weight may be one unit above its inner
+/// neighbour. For 8-bit maps, which the lanes of backend/simd.hpp then filter in whole numbers, several times as fast. `binomial` up
+/// to R = 4 is one already, and `tent` of R = 1, 3, 7 and 15.
+template <kernel Kernel> struct eight_bit : detail::in_units<Kernel, 256> {
+    static_assert(Kernel::radius > 0 && Kernel::radius <= 32,
+                  "gnomon: eight_bit<Kernel>: the radius must be 1..32; beyond, 256 units are too few for the weights of a kernel");
+};
+
+} // namespace gnomon::inline GNOMON_BUILD

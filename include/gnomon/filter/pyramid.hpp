@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// The size of the next mip level: half, rounded up, so that no caster at an odd edge is lost. A texel of level l covers 2^l x 2^l
 /// texels of the map, also where part of them lies off the map, and counts as clear. For a square map whose side is a power of two
@@ -119,4 +119,4 @@ template <typename T, texel_format Texel>
     return blend;
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

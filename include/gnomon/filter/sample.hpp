@@ -4,7 +4,7 @@
 #include <gnomon/texel/image.hpp>
 #include <gnomon/texel/texel.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A filtered texel as numbers, in codes: what a decision is made from. Reading a stored texel loses nothing.
 template <texel_format Texel> struct filtered {
@@ -69,4 +69,4 @@ template <typename T>
     return blend;
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -1,6 +1,7 @@
 // gnomon: soft shadow maps. The separable filter: columns into one wide line, the line into a row, one rounding.
 #pragma once
 
+#include <gnomon/filter/fast.hpp>
 #include <gnomon/filter/kernel.hpp>
 #include <gnomon/texel/image.hpp>
 #include <gnomon/texel/texel.hpp>
@@ -11,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// What a line between the passes holds: whole numbers where codes are whole (exact), doubles otherwise.
 template <texel_format Texel>
@@ -48,22 +49,59 @@ template <int Bits> [[nodiscard]] constexpr double to_bits(double v) noexcept {
     return std::bit_cast<double>((std::bit_cast<std::uint64_t>(v) + (dropped + 1) / 2) & ~dropped);
 }
 
+/// How a texel's filter computes, by the weights it uses: one product more in a sum, what is left of a sum between the passes, and
+/// what 1 is at the end.
+template <texel_format Texel, kernel Kernel> struct sums {
+    using chosen = plan<Texel, Kernel>;
+    using weights_of = typename chosen::weights_of;
+    using element = line_element<Texel>;
+    using wide = typename Texel::linear_sum;
+    static constexpr bool in_floats = chosen::how == arithmetic::single, stored_between = chosen::how == arithmetic::stored;
+
+    /// What weights of floats are divided by, so that the line stays near 1: a power of two, which rounds nothing.
+    static constexpr int unit = in_floats ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(weights_of::total))) : 1;
+    template <typename Number> [[nodiscard]] static constexpr Number weight(int tap) noexcept {
+        return static_cast<Number>(weights_of::weights[static_cast<std::size_t>(tap)]) / static_cast<Number>(unit);
+    }
+    /// The weights of both passes. A float: where it is none, nearest to it.
+    static constexpr wide whole = [] {
+        constexpr auto total = static_cast<wide>(weights_of::total) / static_cast<wide>(unit);
+        if constexpr (in_floats) return static_cast<wide>(static_cast<float>(total * total));
+        return stored_between ? total : total * total;
+    }();
+
+    template <typename Number> [[nodiscard]] static constexpr Number add(Number sum, Number w, Number v) noexcept {
+        if constexpr (in_floats) return static_cast<Number>(static_cast<float>(sum) + static_cast<float>(w * v)); // w v is exact
+        return sum + w * v;
+    }
+    [[nodiscard]] static constexpr element between(element sum) noexcept {
+        if constexpr (stored_between)
+            return (sum + weights_of::total / 2) / weights_of::total;
+        else if constexpr (Texel::channel_type::whole_codes || in_floats)
+            return sum;
+        else
+            return to_bits<36>(sum);
+    }
+};
+
 /// The first pass: for the columns [x0, x1) the weighted sums of the 2R+1 rows around `y`. What lies off the map is clear.
 template <kernel Kernel, texel_format Texel>
 void sum_columns(image_view<const Texel> from, int y, int x0, int x1, std::span<line_element<Texel>> line) noexcept {
     using element = line_element<Texel>;
+    using by = sums<Texel, Kernel>;
     constexpr int channels = Texel::channels;
     constexpr Texel clear = Texel::clear();
     const int inside0 = lesser(greater(x0, 0), x1), inside1 = greater(lesser(x1, from.width()), inside0);
     const auto add = [&line, x0](element weight, int first, int last, auto texel_at) {
         element* sum = line.data() + static_cast<std::ptrdiff_t>(first - x0) * channels;
         for (int x = first; x < last; ++x)
-            for (int c = 0; c < channels; ++c, ++sum) *sum += weight * texel_at(x).template linear<element>(c);
+            for (int c = 0; c < channels; ++c, ++sum) *sum = by::add(*sum, weight, texel_at(x).template linear<element>(c));
     };
     const auto outside = [&clear](int) -> const Texel& { return clear; };
-    for (std::size_t i = 0; i < static_cast<std::size_t>(x1 - x0) * channels; ++i) line[i] = element{};
+    const auto count = static_cast<std::size_t>(x1 - x0) * channels;
+    for (std::size_t i = 0; i < count; ++i) line[i] = element{};
     for (int tap = 0; tap <= 2 * Kernel::radius; ++tap) {
-        const auto weight = static_cast<element>(Kernel::weights[static_cast<std::size_t>(tap)]);
+        const auto weight = by::template weight<element>(tap);
         const int row = y + tap - Kernel::radius;
         if (row < 0 || row >= from.height()) {
             add(weight, x0, x1, outside);
@@ -74,24 +112,25 @@ void sum_columns(image_view<const Texel> from, int y, int x0, int x1, std::span<
         add(weight, inside0, inside1, [texels](int x) -> const Texel& { return texels[x]; });
         add(weight, inside1, x1, outside);
     }
-    if constexpr (!Texel::channel_type::whole_codes)
-        for (std::size_t i = 0; i < static_cast<std::size_t>(x1 - x0) * channels; ++i) line[i] = to_bits<36>(line[i]);
+    for (std::size_t i = 0; i < count; ++i) line[i] = by::between(line[i]);
 }
 
-/// The second pass and the one rounding: `width` texels out of a line that begins Kernel::radius columns before them.
+/// The second pass and the last rounding: `width` texels out of a line that begins Kernel::radius columns before them.
 template <kernel Kernel, texel_format Texel>
 void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) noexcept {
     constexpr int channels = Texel::channels;
-    using wide = typename Texel::linear_sum;
-    constexpr wide whole = static_cast<wide>(Kernel::total) * static_cast<wide>(Kernel::total);
+    using by = sums<Texel, Kernel>;
+    using wide = typename by::wide;
     for (int x = 0; x < width; ++x) {
-        wide sums[static_cast<std::size_t>(channels)]{};
-        for (int c = 0; c < channels; ++c)
+        wide sum[static_cast<std::size_t>(channels)]{};
+        for (int c = 0; c < channels; ++c) {
             for (int tap = 0; tap <= 2 * Kernel::radius; ++tap) {
                 const auto i = static_cast<std::size_t>(x + tap) * channels + static_cast<std::size_t>(c);
-                sums[c] += static_cast<wide>(Kernel::weights[static_cast<std::size_t>(tap)]) * static_cast<wide>(line[i]);
+                sum[c] = by::add(sum[c], by::template weight<wide>(tap), static_cast<wide>(line[i]));
             }
-        to[x] = Texel::from_linear(sums, whole);
+            if constexpr (by::in_floats) sum[c] = static_cast<wide>(static_cast<float>(sum[c]) / static_cast<float>(by::whole));
+        }
+        to[x] = Texel::from_linear(sum, by::in_floats ? wide{1} : by::whole);
     }
 }
 
@@ -126,4 +165,4 @@ void filter_region(std::type_identity_t<image_view<const Texel>> from, image_vie
     }
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

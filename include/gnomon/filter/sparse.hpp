@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// Share of the map, in percent, from which on filtering all of it is cheaper than filtering parts. Measured, see bench/sparse.cpp.
 inline constexpr int dense_from_percent = 90;
@@ -16,8 +16,8 @@ inline constexpr int dense_from_percent = 90;
 namespace detail {
 
 /// Are regions of so many texels so much of the map that a filter takes it whole?
-[[nodiscard]] constexpr bool is_dense(std::int64_t texels, extent size) noexcept {
-    return texels * 100 >= std::int64_t{dense_from_percent} * size.width * size.height;
+[[nodiscard]] constexpr bool is_dense(double texels, extent size) noexcept {
+    return texels * 100 >= 1.0 * dense_from_percent * size.width * size.height;
 }
 
 /// Texels of the rectangles that walk(f) hands out.
@@ -35,9 +35,9 @@ template <kernel Kernel> class regions_to_filter {
   public:
     explicit regions_to_filter(const tile_grid& tiles) noexcept : tiles_(tiles) {
         // So many texels could they be at most; most frames are settled by that.
-        const std::int64_t side = lesser<std::int64_t>(std::int64_t{tiles.tile()} + 2 * Kernel::radius, 1 << 16);
+        const double side = 1.0 * tiles.tile() + 2 * Kernel::radius;
         whole_ = !tiles.size().empty() && detail::is_dense(side * side * tiles.held_count(), tiles.size()) &&
-                 detail::is_dense(detail::texels_in(*this), tiles.size());
+                 detail::is_dense(static_cast<double>(detail::texels_in(*this)), tiles.size());
     }
     /// Is it the whole map?
     [[nodiscard]] bool all() const noexcept { return whole_; }
@@ -84,4 +84,4 @@ void clear_what_is_left(image_view<Texel> soft, const tile_grid& before, const t
     for_each_region_left(before, now, Kernel::radius, [&](texel_rect r) { clear_region(soft, r); });
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

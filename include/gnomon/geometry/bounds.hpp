@@ -5,7 +5,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A ball. A negative or NaN radius, or a NaN centre, is an empty one: it has no footprint and no fit includes it.
 struct bounding_sphere {
@@ -35,4 +35,4 @@ struct bounding_box {
     return {ball.centre - glm::dvec3(ball.radius), ball.centre + glm::dvec3(ball.radius)};
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -6,7 +6,7 @@
 
 #include <glm/common.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// Gathers what a directional light has to cover, and fits a frame to it.
 ///
@@ -95,4 +95,4 @@ class directional_light {
     range x_, y_, z_;
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

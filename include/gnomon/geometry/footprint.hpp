@@ -6,7 +6,7 @@
 
 #include <glm/common.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// Where something is on a map: texels, clipped to the map, and unit depths, clamped to [0, 1].
 struct light_footprint {
@@ -107,4 +107,4 @@ struct map_bounds {
     return bounds.rounded(light.size());
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

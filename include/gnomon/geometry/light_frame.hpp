@@ -18,7 +18,7 @@
 #include <initializer_list>
 #include <limits>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// Where the clip space of a graphics API has its near and far plane, after the divide by w.
 enum class clip_depth {
@@ -202,4 +202,4 @@ struct light_axes {
 };
 } // namespace detail
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

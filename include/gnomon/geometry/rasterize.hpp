@@ -6,7 +6,7 @@
 #include <gnomon/texel/image.hpp>
 #include <gnomon/texel/texel.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// Indexed triangles. A triangle with an index off the positions, or a corner that is not finite, is left out; so are one or two
 /// indices too many at the end.
@@ -228,4 +228,4 @@ light_footprint bound_triangles(image_view<Texel> texels, const triangle_mesh& m
     return rasterize(mesh, light, clip(region, texels.size()), side, bound, where);
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

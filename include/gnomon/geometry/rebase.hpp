@@ -4,7 +4,7 @@
 #include <gnomon/geometry/light_frame.hpp>
 #include <gnomon/texel/image.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A world position relative to `origin`: subtracted in double, then rounded to float once.
 [[nodiscard]] inline glm::vec3 rebase(const glm::dvec3& world, const glm::dvec3& origin) noexcept {
@@ -111,4 +111,4 @@ class rebased_frame {
     glm::mat4 matrix_{0.0f};
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

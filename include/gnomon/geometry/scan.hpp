@@ -11,7 +11,7 @@
 
 #include <cstdint>
 
-namespace gnomon::detail {
+namespace gnomon::inline GNOMON_BUILD::detail {
 
 /// A position on the map in 1/256 texel, within +-2^28 (2^20 texels): products of two differences stay below 2^60.
 struct fixed_point {
@@ -120,4 +120,4 @@ template <typename Span> constexpr void scan(const fixed_point* corners, int cou
     }
 }
 
-} // namespace gnomon::detail
+} // namespace gnomon::inline GNOMON_BUILD::detail

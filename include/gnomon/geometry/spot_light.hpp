@@ -3,7 +3,7 @@
 
 #include <gnomon/geometry/light_frame.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A cone of light. Its depth is the distance along the axis, linear: (distance - near_plane) / (far_plane - near_plane).
 struct spot_light {
@@ -35,4 +35,4 @@ struct spot_light {
     [[nodiscard]] glm::dvec4 through_position(const glm::dvec3& axis) const noexcept { return {axis, -glm::dot(axis, position)}; }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

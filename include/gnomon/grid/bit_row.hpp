@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 using bit_word = std::uint64_t;
 inline constexpr int bits_per_word = 64;
@@ -82,4 +82,4 @@ template <typename Word> struct basic_bit_row {
 using bit_row = basic_bit_row<bit_word>;
 using const_bit_row = basic_bit_row<const bit_word>;
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

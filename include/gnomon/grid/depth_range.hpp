@@ -3,7 +3,7 @@
 
 #include <gnomon/grid/tile_grid.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A tile grid with the depth interval of the casters whose shadow may lie in each tile.
 ///
@@ -57,4 +57,4 @@ class depth_tiles {
     std::vector<depth_interval> depths_;
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 namespace detail {
 
@@ -246,4 +246,4 @@ template <typename F> void for_each_region_left(const tile_grid& before, const t
     }
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

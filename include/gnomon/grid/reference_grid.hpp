@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A rectangle with real sides, in texels: what the reference engine's casters and receivers are.
 struct real_rect {
@@ -104,4 +104,4 @@ class reference_grid {
     bool any_ = false;
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -5,7 +5,7 @@
 
 #include <span>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// Calls f(tile_rect) for disjoint rectangles that cover the set tiles exactly, from row 0 upwards and from the left.
 ///
@@ -51,4 +51,4 @@ template <typename F> void for_each_tile_rect_greedy(const tile_grid& grid, std:
         });
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 namespace detail {
 
@@ -188,4 +188,4 @@ class tile_grid {
     detail::bit_grid held_;    ///< by marks without
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// Which side gets the benefit of the doubt.
 enum class bias_towards {
@@ -81,4 +81,4 @@ template <texel_format Texel> [[nodiscard]] constexpr biased apply(const bias& b
     return {static_cast<double>(lower), static_cast<double>(upper), z - towards * (b.depth + caster)};
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

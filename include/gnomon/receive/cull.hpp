@@ -4,7 +4,7 @@
 #include <gnomon/grid/depth_range.hpp>
 #include <gnomon/receive/bias.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// Could any caster shadow a receiver whose texels are `footprint` and whose depths are `depth`, under a bias in this direction?
 ///
@@ -20,4 +20,4 @@ namespace gnomon {
     return tiles.touches(grow(footprint, 1));
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -4,7 +4,7 @@
 #include <gnomon/filter/sample.hpp>
 #include <gnomon/receive/bias.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// How a filtered texel becomes an intensity. What every receive function uses if nothing else is said, rule{}: no false shadow.
 struct rule {
@@ -69,4 +69,4 @@ template <texel_format Texel> [[nodiscard]] constexpr float caster_depth(const T
     return caster_depth(read(texel));
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

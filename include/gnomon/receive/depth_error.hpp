@@ -3,7 +3,7 @@
 
 #include <gnomon/receive/decide.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// How far the depth that was filtered may be from caster_depth(texel), in [0, 1], if its numbers were rounded `roundings` times.
 ///
@@ -53,4 +53,4 @@ template <texel_format Texel, int Steps> consteval float mask_for_steps() {
 /// is enough for, and that does not compile.
 template <texel_format Texel, int Steps> inline constexpr float mask_threshold = detail::mask_for_steps<Texel, Steps>();
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -4,7 +4,7 @@
 
 #include <gnomon/texel/image.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// What a shadow leaves of a lightmap's light: light - shadow * max(light - ambient, 0).
 ///
@@ -26,4 +26,4 @@ inline void mask_light(strided_span<const float> light, strided_span<const float
     for (int i = 0; i < count; ++i) result[i] = mask_light(light[i], shadow[i], ambient);
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// The texel format of a row of texels: of a strided_span, std::span, std::vector or anything else with data() and size().
 template <typename Row>
@@ -41,4 +41,4 @@ void receive(image_view<T> map, strided_span<const float> x, strided_span<const 
     for (int i = 0; i < count; ++i) intensity[i] = shadow(sample(map, x[i], y[i]), z[i], r);
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -12,7 +12,7 @@
 
 #define GNOMON_AVX2 "avx2,fma,f16c"
 GNOMON_TARGET_BEGIN(GNOMON_AVX2)
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 struct avx2 {
     static constexpr int bytes = 32;
@@ -25,6 +25,9 @@ struct avx2 {
 
     GNOMON_LANES ints load(const void* from) noexcept { return _mm256_loadu_si256(static_cast<const __m256i*>(from)); }
     GNOMON_LANES_VOID void store(void* to, ints a) noexcept { _mm256_storeu_si256(static_cast<__m256i*>(to), a); }
+    GNOMON_LANES_VOID void stream(void* to, ints a) noexcept { _mm256_stream_si256(static_cast<__m256i*>(to), a); }
+    GNOMON_LANES_VOID void fence() noexcept { _mm_sfence(); }
+    GNOMON_LANES_VOID void prefetch(const void* from) noexcept { _mm_prefetch(static_cast<const char*>(from), _MM_HINT_T0); }
     GNOMON_LANES ints repeat32(std::uint32_t v) noexcept { return _mm256_set1_epi32(static_cast<int>(v)); }
     GNOMON_LANES ints exclusive_or(ints a, ints b) noexcept { return _mm256_xor_si256(a, b); }
 
@@ -46,6 +49,15 @@ struct avx2 {
             _mm256_or_si256(_mm256_and_si256(c, _mm256_set1_epi32(0xFF0000)), _mm256_slli_epi32(_mm256_srli_epi32(d, 16), 24));
         return _mm256_or_si256(ab, cd);
     }
+    GNOMON_LANES ints low_pairs8(ints a, ints b) noexcept { return _mm256_unpacklo_epi8(a, b); }
+    GNOMON_LANES ints high_pairs8(ints a, ints b) noexcept { return _mm256_unpackhi_epi8(a, b); }
+    GNOMON_LANES ints low_pairs16(ints a, ints b) noexcept { return _mm256_unpacklo_epi16(a, b); }
+    GNOMON_LANES ints high_pairs16(ints a, ints b) noexcept { return _mm256_unpackhi_epi16(a, b); }
+    GNOMON_LANES ints first_half(ints low, ints high) noexcept { return _mm256_permute2x128_si256(low, high, 0x20); }
+    GNOMON_LANES ints second_half(ints low, ints high) noexcept { return _mm256_permute2x128_si256(low, high, 0x31); }
+    template <int Bits> GNOMON_LANES ints shift_right32(ints a) noexcept { return _mm256_srai_epi32(a, Bits); }
+    GNOMON_LANES ints narrow32(ints a, ints b) noexcept { return _mm256_packs_epi32(a, b); }
+    GNOMON_LANES ints narrow16(ints a, ints b) noexcept { return _mm256_permute4x64_epi64(_mm256_packus_epi16(a, b), 0xD8); }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
     GNOMON_LANES floats load(const float* from) noexcept { return _mm256_loadu_ps(from); }
@@ -53,6 +65,13 @@ struct avx2 {
     GNOMON_LANES floats repeat(float v) noexcept { return _mm256_set1_ps(v); }
     GNOMON_LANES floats add(floats a, floats b) noexcept { return _mm256_add_ps(a, b); }
     GNOMON_LANES floats subtract(floats a, floats b) noexcept { return _mm256_sub_ps(a, b); }
+    GNOMON_LANES floats multiply(floats a, floats b) noexcept { return _mm256_mul_ps(a, b); }
+    GNOMON_LANES floats divide(floats a, floats b) noexcept { return _mm256_div_ps(a, b); }
+    GNOMON_LANES floats add_product(floats sum, floats a, floats b) noexcept {
+        floats product = _mm256_mul_ps(a, b);
+        GNOMON_SETTLE(product);
+        return _mm256_add_ps(sum, product);
+    }
     GNOMON_LANES floats fraction(floats a, float b) noexcept { // the product is within an ulp, and what it lacks is exact
         const floats by = _mm256_set1_ps(b), inverse = _mm256_set1_ps(1.0f / b), q = _mm256_mul_ps(a, inverse);
         return _mm256_fmadd_ps(_mm256_fnmadd_ps(q, by, a), inverse, q);
@@ -71,6 +90,10 @@ struct avx2 {
         } else if constexpr (std::same_as<Channel, unorm16> && Channels == 2) {
             const ints pairs = load(from);
             return _mm256_cvtepi32_ps(c == 0 ? _mm256_and_si256(pairs, _mm256_set1_epi32(65535)) : _mm256_srli_epi32(pairs, 16));
+        } else if constexpr (std::same_as<Channel, float32> && Channels == 1) {
+            return load(from);
+        } else if constexpr (std::same_as<Channel, half16> && Channels == 1) {
+            return _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
@@ -102,6 +125,12 @@ struct avx2 {
             return _mm256_cvtps_pd(_mm_loadu_ps(from));
         }
     }
+    template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
+        if constexpr (std::same_as<Channel, half16>)
+            _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm256_cvtps_ph(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
+        else
+            store(to, add(a, _mm256_setzero_ps()));
+    }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, doubles a) noexcept {
         if constexpr (std::same_as<Channel, unorm8>) {
             const __m128i words = _mm_packus_epi32(_mm256_cvttpd_epi32(a), _mm_setzero_si128());
@@ -128,6 +157,6 @@ struct avx2 {
     }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD
 GNOMON_TARGET_END
 #endif

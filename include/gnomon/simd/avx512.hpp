@@ -12,7 +12,7 @@
 
 #define GNOMON_AVX512 "avx2,fma,f16c,avx512f,avx512bw,avx512dq,avx512vl,avx512vnni"
 GNOMON_TARGET_BEGIN(GNOMON_AVX512)
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 struct avx512 {
     static constexpr int bytes = 64;
@@ -25,6 +25,9 @@ struct avx512 {
 
     GNOMON_LANES ints load(const void* from) noexcept { return _mm512_loadu_si512(from); }
     GNOMON_LANES_VOID void store(void* to, ints a) noexcept { _mm512_storeu_si512(to, a); }
+    GNOMON_LANES_VOID void stream(void* to, ints a) noexcept { _mm512_stream_si512(static_cast<__m512i*>(to), a); }
+    GNOMON_LANES_VOID void fence() noexcept { _mm_sfence(); }
+    GNOMON_LANES_VOID void prefetch(const void* from) noexcept { _mm_prefetch(static_cast<const char*>(from), _MM_HINT_T0); }
     GNOMON_LANES ints repeat32(std::uint32_t v) noexcept { return _mm512_set1_epi32(static_cast<int>(v)); }
     GNOMON_LANES ints exclusive_or(ints a, ints b) noexcept { return _mm512_xor_si512(a, b); }
 
@@ -38,6 +41,24 @@ struct avx512 {
         const ints cd = chosen(_mm512_set1_epi32(0xFF0000), c, _mm512_maskz_slli_epi32(all, d, 8));
         return chosen(_mm512_set1_epi32(0xFFFF), ab, cd);
     }
+    GNOMON_LANES ints low_pairs8(ints a, ints b) noexcept { return _mm512_unpacklo_epi8(a, b); }
+    GNOMON_LANES ints high_pairs8(ints a, ints b) noexcept { return _mm512_unpackhi_epi8(a, b); }
+    GNOMON_LANES ints low_pairs16(ints a, ints b) noexcept { return _mm512_unpacklo_epi16(a, b); }
+    GNOMON_LANES ints high_pairs16(ints a, ints b) noexcept { return _mm512_unpackhi_epi16(a, b); }
+    GNOMON_LANES ints first_half(ints low, ints high) noexcept {
+        return _mm512_permutex2var_epi64(low, _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), high);
+    }
+    GNOMON_LANES ints second_half(ints low, ints high) noexcept {
+        return _mm512_permutex2var_epi64(low, _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15), high);
+    }
+    template <int Bits> GNOMON_LANES ints shift_right32(ints a) noexcept { return _mm512_maskz_srai_epi32(all, a, Bits); }
+    GNOMON_LANES ints narrow32(ints a, ints b) noexcept { return _mm512_packs_epi32(a, b); }
+    GNOMON_LANES ints narrow16(ints a, ints b) noexcept {
+        return _mm512_maskz_permutexvar_epi64(eight, _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7), _mm512_packus_epi16(a, b));
+    }
+    GNOMON_LANES ints add_dot8(ints sum, ints weights, ints values) noexcept { return _mm512_dpbusd_epi32(sum, values, weights); }
+    GNOMON_LANES ints even_words(ints a, ints b) noexcept { return _mm512_permutex2var_epi16(a, word_order(0), b); }
+    GNOMON_LANES ints odd_words(ints a, ints b) noexcept { return _mm512_permutex2var_epi16(a, word_order(1), b); }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
     GNOMON_LANES floats load(const float* from) noexcept { return _mm512_loadu_ps(from); }
@@ -45,6 +66,13 @@ struct avx512 {
     GNOMON_LANES floats repeat(float v) noexcept { return _mm512_set1_ps(v); }
     GNOMON_LANES floats add(floats a, floats b) noexcept { return _mm512_add_ps(a, b); }
     GNOMON_LANES floats subtract(floats a, floats b) noexcept { return _mm512_sub_ps(a, b); }
+    GNOMON_LANES floats multiply(floats a, floats b) noexcept { return _mm512_mul_ps(a, b); }
+    GNOMON_LANES floats divide(floats a, floats b) noexcept { return _mm512_div_ps(a, b); }
+    GNOMON_LANES floats add_product(floats sum, floats a, floats b) noexcept {
+        floats product = _mm512_mul_ps(a, b);
+        GNOMON_SETTLE(product);
+        return _mm512_add_ps(sum, product);
+    }
     GNOMON_LANES floats fraction(floats a, float b) noexcept { // the product is within an ulp, and what it lacks is exact
         const floats by = _mm512_set1_ps(b), inverse = _mm512_set1_ps(1.0f / b), q = _mm512_mul_ps(a, inverse);
         return _mm512_fmadd_ps(_mm512_fnmadd_ps(q, by, a), inverse, q);
@@ -63,6 +91,10 @@ struct avx512 {
         } else if constexpr (std::same_as<Channel, unorm16> && Channels == 2) {
             const ints pairs = load(from);
             return number(c == 0 ? _mm512_and_si512(pairs, _mm512_set1_epi32(65535)) : _mm512_maskz_srli_epi32(all, pairs, 16));
+        } else if constexpr (std::same_as<Channel, float32> && Channels == 1) {
+            return load(from);
+        } else if constexpr (std::same_as<Channel, half16> && Channels == 1) {
+            return _mm512_maskz_cvtph_ps(all, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
@@ -92,6 +124,13 @@ struct avx512 {
             return _mm512_maskz_cvtps_pd(eight, _mm256_loadu_ps(from));
         }
     }
+    template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
+        if constexpr (std::same_as<Channel, half16>)
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                                _mm512_maskz_cvtps_ph(all, a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
+        else
+            store(to, add(a, _mm512_setzero_ps()));
+    }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, doubles a) noexcept {
         if constexpr (std::same_as<Channel, unorm8>) {
             _mm_storel_epi64(reinterpret_cast<__m128i*>(to),
@@ -110,6 +149,12 @@ struct avx512 {
     }
 
   private:
+    /// Word 0, 2, 4, 6 of each 16 bytes of the first of two registers, then of the second.
+    GNOMON_LANES ints word_order(int odd) noexcept {
+        alignas(64) static constexpr std::int16_t order[32] = {0,  2,  4,  6,  32, 34, 36, 38, 8,  10, 12, 14, 40, 42, 44, 46,
+                                                               16, 18, 20, 22, 48, 50, 52, 54, 24, 26, 28, 30, 56, 58, 60, 62};
+        return _mm512_add_epi16(load(order), _mm512_set1_epi16(static_cast<short>(odd)));
+    }
     static constexpr __mmask8 eight = 0xFF;
     static constexpr __mmask16 all = 0xFFFF; // g++ 12 warns of the undefined register that the forms without a mask begin with
     GNOMON_LANES floats number(ints a) noexcept { return _mm512_maskz_cvtepi32_ps(all, a); }
@@ -123,6 +168,6 @@ struct avx512 {
     }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD
 GNOMON_TARGET_END
 #endif

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A register of `Bytes` bytes: whole numbers of 8, 16 or 32 bits in one type, as processors have it, and doubles.
 ///
@@ -35,6 +35,11 @@ template <int Bytes> struct emulated {
 
     [[nodiscard]] static ints load(const void* from) noexcept { return copied<ints>(from); }
     static void store(void* to, ints a) noexcept { std::memcpy(to, &a, sizeof a); }
+    /// Stores past the caches, where there is such a way; what is stored so others see after a fence. \pre aligned to a register
+    static void stream(void* to, ints a) noexcept { store(to, a); }
+    static void fence() noexcept {}
+    /// Calls for memory that will soon be read; any address will do.
+    static void prefetch(const void*) noexcept {}
     /// The same 32 bits again and again.
     [[nodiscard]] static ints repeat32(std::uint32_t v) noexcept {
         return each<std::uint32_t>([v](int) { return v; });
@@ -75,6 +80,40 @@ template <int Bytes> struct emulated {
         const ints* const from[4] = {&a, &b, &c, &d};
         return each<std::uint8_t>([&](int i) { return at<std::uint32_t>(*from[i % 4], i / 4) >> 16; });
     }
+    /// In each 16 bytes: the lower eight bytes of `a` in turn with those of `b`; and the upper eight.
+    [[nodiscard]] static ints low_pairs8(ints a, ints b) noexcept { return paired<std::uint8_t>(a, b, 0); }
+    [[nodiscard]] static ints high_pairs8(ints a, ints b) noexcept { return paired<std::uint8_t>(a, b, 8); }
+    /// The same of 16 bits.
+    [[nodiscard]] static ints low_pairs16(ints a, ints b) noexcept { return paired<std::uint16_t>(a, b, 0); }
+    [[nodiscard]] static ints high_pairs16(ints a, ints b) noexcept { return paired<std::uint16_t>(a, b, 8); }
+    /// 16 bytes of `low` in turn with 16 of `high`: what low_pairs and high_pairs made, in order again, in two registers.
+    [[nodiscard]] static ints first_half(ints low, ints high) noexcept { return in_turn(low, high, 0); }
+    [[nodiscard]] static ints second_half(ints low, ints high) noexcept { return in_turn(low, high, Bytes); }
+    /// Downwards.
+    template <int Bits> [[nodiscard]] static ints shift_right32(ints a) noexcept {
+        return each<std::int32_t>([&](int i) { return at<std::int32_t>(a, i) >> Bits; });
+    }
+    /// In each 16 bytes: four signed 32 bits of `a`, then four of `b`, in 16. \pre they fit
+    [[nodiscard]] static ints narrow32(ints a, ints b) noexcept {
+        return each<std::int16_t>([&](int i) { return at<std::int32_t>(i % 8 < 4 ? a : b, i / 8 * 4 + i % 4); });
+    }
+    /// The 16 bits of `a`, then those of `b`, in eight. \pre they fit
+    [[nodiscard]] static ints narrow16(ints a, ints b) noexcept {
+        return each<std::uint8_t>([&](int i) { return at<std::uint16_t>(i < Bytes / 2 ? a : b, i % (Bytes / 2)); });
+    }
+    /// 32 bits: `sum`, and four neighbours' products, signed weight times unsigned value, modulo 2^32.
+    [[nodiscard]] static ints add_dot8(ints sum, ints weights, ints values) noexcept {
+        return each<std::uint32_t>([&](int i) {
+            std::uint32_t total = at<std::uint32_t>(sum, i);
+            for (int k = 4 * i; k < 4 * i + 4; ++k)
+                total += static_cast<std::uint32_t>(static_cast<std::int8_t>(weights.byte[k]) * values.byte[k]);
+            return total;
+        });
+    }
+    /// In each 16 bytes, and in order over these: 16 bits 0, 2, 4 and 6 of `a`, then those of `b`; and 1, 3, 5 and 7. Of registers
+    /// that hold pairs, 16 bytes of either in turn, the first numbers and the second ones.
+    [[nodiscard]] static ints even_words(ints a, ints b) noexcept { return words(a, b, 0); }
+    [[nodiscard]] static ints odd_words(ints a, ints b) noexcept { return words(a, b, 1); }
     /// Nothing. Where a compiler would sum products as a tree, which takes more registers than there are, it keeps their order.
     static void settle(ints&) noexcept {}
 
@@ -88,6 +127,18 @@ template <int Bytes> struct emulated {
     }
     [[nodiscard]] static floats subtract(floats a, floats b) noexcept {
         return of_floats<floats>([&](int i) { return a.lane[i] - b.lane[i]; });
+    }
+    [[nodiscard]] static floats multiply(floats a, floats b) noexcept {
+        return of_floats<floats>([&](int i) { return a.lane[i] * b.lane[i]; });
+    }
+    [[nodiscard]] static floats divide(floats a, floats b) noexcept {
+        return of_floats<floats>([&](int i) { return a.lane[i] / b.lane[i]; });
+    }
+    /// sum + a * b, the product rounded and then the sum, whatever a compiler may fuse.
+    [[nodiscard]] static floats add_product(floats sum, floats a, floats b) noexcept {
+        return of_floats<floats>([&](int i) {
+            return sum.lane[i] + static_cast<float>(static_cast<double>(a.lane[i]) * static_cast<double>(b.lane[i]));
+        });
     }
     /// a / b, correctly rounded. \pre 1 / b is the float nearest to it, and `a` a whole number in [0, b], b = 255 or 65535
     [[nodiscard]] static floats fraction(floats a, float b) noexcept {
@@ -146,6 +197,10 @@ template <int Bytes> struct emulated {
     template <channel Channel> [[nodiscard]] static doubles codes(const typename Channel::storage* from) noexcept {
         return each([&](int i) { return static_cast<double>(Channel::code(from[i])); });
     }
+    /// Stores floats in half16 or float32, rounded once; of a NaN only that it is one.
+    template <channel Channel> static void store_codes(typename Channel::storage* to, floats a) noexcept {
+        for (int i = 0; i < float_lanes; ++i) to[i] = Channel::store(static_cast<double>(a.lane[i]));
+    }
     /// Stores numbers rounded once: whole codes downwards, \pre within the code's range; half and float as `Channel::store`, but for
     /// what is left of a NaN, which is any NaN.
     template <channel Channel> static void store_codes(typename Channel::storage* to, doubles a) noexcept {
@@ -174,6 +229,20 @@ template <int Bytes> struct emulated {
         }
         return a;
     }
+    /// Eight bytes of `a` in turn with eight of `b`, of each 16 those from `first` on.
+    template <typename T> [[nodiscard]] static ints paired(ints a, ints b, int first) noexcept {
+        constexpr int size = static_cast<int>(sizeof(T)), lane = 16 / size;
+        return each<T>([&](int i) { return at<T>(i % 2 == 0 ? a : b, i / lane * lane + first / size + i % lane / 2); });
+    }
+    [[nodiscard]] static ints words(ints a, ints b, int odd) noexcept {
+        return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(i % 8 < 4 ? a : b, i / 8 * 8 + i % 4 * 2 + odd); });
+    }
+    [[nodiscard]] static ints in_turn(ints low, ints high, int first) noexcept {
+        return each<std::uint8_t>([&](int i) {
+            const int from = first + i;
+            return (from / 16 % 2 == 0 ? low : high).byte[from / 32 * 16 + from % 16];
+        });
+    }
     template <typename T, typename F> [[nodiscard]] static T of_floats(F&& f) noexcept {
         T a;
         for (int i = 0; i < float_lanes; ++i) a.lane[i] = f(i);
@@ -186,4 +255,4 @@ template <int Bytes> struct emulated {
     }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -15,7 +15,7 @@
 #include <cpuid.h>
 #endif
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A set of lanes. `emulated` says what each operation means; bring your own by answering the same list.
 template <typename Isa>
@@ -27,6 +27,9 @@ concept simd_isa =
         requires std::same_as<std::remove_cv_t<decltype(Isa::double_lanes)>, int>;
         { Isa::load(memory) } -> std::same_as<typename Isa::ints>;
         { Isa::store(memory, i) };
+        { Isa::stream(memory, i) };
+        { Isa::fence() };
+        { Isa::prefetch(static_cast<const void*>(memory)) };
         { Isa::repeat32(std::uint32_t{}) } -> std::same_as<typename Isa::ints>;
         { Isa::exclusive_or(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::even_pairs8(i, i) } -> std::same_as<typename Isa::ints>;
@@ -35,12 +38,24 @@ concept simd_isa =
         { Isa::add16(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::add_dot16(i, i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::interleave_byte2(i, i, i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::low_pairs8(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::high_pairs8(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::low_pairs16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::high_pairs16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::first_half(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::second_half(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_right32<16>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::narrow32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::narrow16(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::settle(i) };
         { Isa::load(static_cast<const float*>(numbers)) } -> std::same_as<typename Isa::floats>;
         { Isa::store(numbers, f) };
         { Isa::repeat(number) } -> std::same_as<typename Isa::floats>;
         { Isa::add(f, f) } -> std::same_as<typename Isa::floats>;
         { Isa::subtract(f, f) } -> std::same_as<typename Isa::floats>;
+        { Isa::multiply(f, f) } -> std::same_as<typename Isa::floats>;
+        { Isa::divide(f, f) } -> std::same_as<typename Isa::floats>;
+        { Isa::add_product(f, f, f) } -> std::same_as<typename Isa::floats>;
         { Isa::fraction(f, number) } -> std::same_as<typename Isa::floats>;
         { Isa::greater(f, f) } -> std::same_as<typename Isa::masks>;
         { Isa::not_greater(f, f) } -> std::same_as<typename Isa::masks>;
@@ -57,8 +72,17 @@ concept simd_isa =
         { Isa::add_product(d, d, d) } -> std::same_as<typename Isa::doubles>;
         { Isa::add_and_mask(d, bits, bits) } -> std::same_as<typename Isa::doubles>;
         { Isa::template codes<unorm8>(codes) } -> std::same_as<typename Isa::doubles>;
+        { Isa::template store_codes<float32>(numbers, f) };
         { Isa::template store_codes<unorm8>(codes, d) };
     };
+
+/// Lanes that sum four products of bytes at once. Optional: filters of bytes are quicker by them.
+template <typename Isa>
+concept sums_quads = simd_isa<Isa> && requires(typename Isa::ints i) {
+    { Isa::add_dot8(i, i, i) } -> std::same_as<typename Isa::ints>;
+    { Isa::even_words(i, i) } -> std::same_as<typename Isa::ints>;
+    { Isa::odd_words(i, i) } -> std::same_as<typename Isa::ints>;
+};
 
 /// Which lanes a processor has.
 enum class cpu_level { portable, sse2, avx2, avx512 };
@@ -95,7 +119,7 @@ inline void ask_cpuid(std::uint32_t leaf, std::uint32_t (&registers)[4]) noexcep
 inline void ask_cpuid(std::uint32_t leaf, std::uint32_t (&r)[4]) noexcept { __cpuid_count(leaf, 0, r[0], r[1], r[2], r[3]); }
 [[nodiscard]] inline std::uint32_t kept_registers() noexcept {
     std::uint32_t low, high;
-    asm("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
+    asm volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0)); // not volatile, it may be asked before OSXSAVE is
     return low;
 }
 #endif
@@ -121,4 +145,4 @@ inline void ask_cpuid(std::uint32_t leaf, std::uint32_t (&r)[4]) noexcept { __cp
     return level;
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

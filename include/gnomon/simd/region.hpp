@@ -21,6 +21,7 @@
 #if defined(__GNUC__)
 #define GNOMON_LANES [[nodiscard, gnu::always_inline]] static inline
 #define GNOMON_LANES_VOID [[gnu::always_inline]] static inline
+#define GNOMON_INLINE [[gnu::always_inline]] inline
 #if defined(__clang__)
 #define GNOMON_UNROLL(times) GNOMON_PRAGMA(unroll times)
 #else
@@ -29,6 +30,7 @@
 #else
 #define GNOMON_LANES [[nodiscard]] static __forceinline
 #define GNOMON_LANES_VOID static __forceinline
+#define GNOMON_INLINE __forceinline
 #define GNOMON_UNROLL(times)
 #endif
 

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <emmintrin.h>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 struct sse2 {
     static constexpr int bytes = 16;
@@ -23,6 +23,9 @@ struct sse2 {
 
     GNOMON_LANES ints load(const void* from) noexcept { return _mm_loadu_si128(static_cast<const __m128i*>(from)); }
     GNOMON_LANES_VOID void store(void* to, ints a) noexcept { _mm_storeu_si128(static_cast<__m128i*>(to), a); }
+    GNOMON_LANES_VOID void stream(void* to, ints a) noexcept { _mm_stream_si128(static_cast<__m128i*>(to), a); }
+    GNOMON_LANES_VOID void fence() noexcept { _mm_sfence(); }
+    GNOMON_LANES_VOID void prefetch(const void* from) noexcept { _mm_prefetch(static_cast<const char*>(from), _MM_HINT_T0); }
     GNOMON_LANES ints repeat32(std::uint32_t v) noexcept { return _mm_set1_epi32(static_cast<int>(v)); }
     GNOMON_LANES ints exclusive_or(ints a, ints b) noexcept { return _mm_xor_si128(a, b); }
 
@@ -46,6 +49,15 @@ struct sse2 {
         const ints cd = _mm_or_si128(_mm_and_si128(c, _mm_set1_epi32(0xFF0000)), _mm_slli_epi32(_mm_srli_epi32(d, 16), 24));
         return _mm_or_si128(ab, cd);
     }
+    GNOMON_LANES ints low_pairs8(ints a, ints b) noexcept { return _mm_unpacklo_epi8(a, b); }
+    GNOMON_LANES ints high_pairs8(ints a, ints b) noexcept { return _mm_unpackhi_epi8(a, b); }
+    GNOMON_LANES ints low_pairs16(ints a, ints b) noexcept { return _mm_unpacklo_epi16(a, b); }
+    GNOMON_LANES ints high_pairs16(ints a, ints b) noexcept { return _mm_unpackhi_epi16(a, b); }
+    GNOMON_LANES ints first_half(ints low, ints) noexcept { return low; }
+    GNOMON_LANES ints second_half(ints, ints high) noexcept { return high; }
+    template <int Bits> GNOMON_LANES ints shift_right32(ints a) noexcept { return _mm_srai_epi32(a, Bits); }
+    GNOMON_LANES ints narrow32(ints a, ints b) noexcept { return _mm_packs_epi32(a, b); }
+    GNOMON_LANES ints narrow16(ints a, ints b) noexcept { return _mm_packus_epi16(a, b); }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
     GNOMON_LANES floats load(const float* from) noexcept { return _mm_loadu_ps(from); }
@@ -53,6 +65,13 @@ struct sse2 {
     GNOMON_LANES floats repeat(float v) noexcept { return _mm_set1_ps(v); }
     GNOMON_LANES floats add(floats a, floats b) noexcept { return _mm_add_ps(a, b); }
     GNOMON_LANES floats subtract(floats a, floats b) noexcept { return _mm_sub_ps(a, b); }
+    GNOMON_LANES floats multiply(floats a, floats b) noexcept { return _mm_mul_ps(a, b); }
+    GNOMON_LANES floats divide(floats a, floats b) noexcept { return _mm_div_ps(a, b); }
+    GNOMON_LANES floats add_product(floats sum, floats a, floats b) noexcept {
+        floats product = _mm_mul_ps(a, b);
+        GNOMON_SETTLE(product);
+        return _mm_add_ps(sum, product);
+    }
     GNOMON_LANES floats fraction(floats a, float b) noexcept { return _mm_div_ps(a, _mm_set1_ps(b)); }
     GNOMON_LANES masks greater(floats a, floats b) noexcept { return _mm_cmpgt_ps(a, b); }
     GNOMON_LANES masks not_greater(floats a, floats b) noexcept { return _mm_cmpngt_ps(a, b); }
@@ -72,6 +91,8 @@ struct sse2 {
         } else if constexpr (std::same_as<Channel, unorm16> && Channels == 2) {
             const ints pairs = load(from);
             return _mm_cvtepi32_ps(c == 0 ? _mm_and_si128(pairs, _mm_set1_epi32(65535)) : _mm_srli_epi32(pairs, 16));
+        } else if constexpr (std::same_as<Channel, float32> && Channels == 1) {
+            return load(from);
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
@@ -92,6 +113,15 @@ struct sse2 {
     template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {
         return _mm_set_pd(static_cast<double>(Channel::code(from[1])), static_cast<double>(Channel::code(from[0])));
     }
+    template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
+        if constexpr (std::same_as<Channel, float32>) {
+            store(to, add(a, _mm_setzero_ps()));
+        } else {
+            emulated<bytes>::floats numbers;
+            store(numbers.lane, a);
+            emulated<bytes>::template store_codes<Channel>(to, numbers);
+        }
+    }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, doubles a) noexcept {
         const double lane[2] = {_mm_cvtsd_f64(a), _mm_cvtsd_f64(_mm_unpackhi_pd(a, a))};
         for (int i = 0; i < 2; ++i)
@@ -105,5 +135,5 @@ struct sse2 {
     GNOMON_LANES doubles upper(floats a) noexcept { return _mm_cvtps_pd(_mm_movehl_ps(a, a)); }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD
 #endif

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// A code c that was rounded once from an exact x satisfies |c - x| <= relative * x + absolute.
 struct rounding_error {
@@ -106,4 +106,4 @@ struct float32 {
 
 static_assert(channel<unorm8> && channel<unorm16> && channel<half16> && channel<float32>);
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -3,7 +3,7 @@
 
 #include <gnomon/texel/channel.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// The depth channel holds e = p (1-s), the mask holds m = p, where p is the share of the footprint that is caster.
 ///
@@ -47,4 +47,4 @@ struct depth_mask {
     }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

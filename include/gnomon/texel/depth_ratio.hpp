@@ -3,7 +3,7 @@
 
 #include <gnomon/texel/depth_mask.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// The depth channel holds t = e/m, the mean reversed depth of the casters, rounded down; the mask holds m, to nearest. Made after
 /// the blur, from its exact sums. Clear, and whatever rounds to an empty mask, is all zero.
@@ -46,4 +46,4 @@ struct depth_ratio {
     }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -3,7 +3,7 @@
 
 #include <gnomon/unit.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// Moves depths so that those of the casters, `nearest` to `farthest`, become 0 to 1. Give it the casters of a light, or of a
 /// region that is sampled by itself; store Texel::caster(shear(s)) and ask shadow(texel, shear(z)).
@@ -40,4 +40,4 @@ struct depth_shear {
     }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

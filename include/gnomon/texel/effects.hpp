@@ -1,7 +1,7 @@
 // gnomon: soft shadow maps. Which optional channels a texel has at all.
 #pragma once
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// Simulate only what the scene calls for: an effect that is off costs no byte of a texel and no instruction.
 struct effects {
@@ -15,4 +15,4 @@ struct effects {
     friend constexpr bool operator==(effects, effects) = default;
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// The half nearest to `v`, ties to even, as its bit pattern. Overflow gives infinity, NaN a quiet NaN.
 ///
@@ -48,4 +48,4 @@ namespace gnomon {
     return std::bit_cast<float>(sign | (113u - static_cast<unsigned>(shift)) << 23 | mantissa << 13);
 }
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// `size` elements, `stride` bytes apart: one row of an image, a column, or any field of an array of structures. The stride keeps
 /// the elements aligned: \pre stride is a multiple of alignof(T). At most 2^31 - 1 elements; more are left out.
@@ -163,4 +163,4 @@ template <typename T> class image {
     std::vector<line> lines_;
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

@@ -3,7 +3,7 @@
 
 #include <gnomon/texel/channel.hpp>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// The depth channel holds d = p (s-1) + 1, cleared to 1; the mask holds m = p, cleared to 0.
 ///
@@ -47,4 +47,4 @@ struct paper_depth_mask {
     }
 };
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

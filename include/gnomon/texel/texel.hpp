@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace gnomon {
+namespace gnomon::inline GNOMON_BUILD {
 
 /// What the numbers of a texel mean. Models: depth_mask (the default), depth_ratio, paper_depth_mask.
 template <typename R>
@@ -191,4 +191,4 @@ using rgba32f = texel<float32, depth_mask, effects{.far_bound = true, .transluce
 
 static_assert(sizeof(rg8) == 2 && sizeof(rgb8) == 3 && sizeof(rgba16) == 8 && sizeof(rg32f) == 8);
 
-} // namespace gnomon
+} // namespace gnomon::inline GNOMON_BUILD

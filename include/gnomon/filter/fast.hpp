@@ -1,0 +1,75 @@
+// gnomon: soft shadow maps. How exactly a filter computes: the kernel as it is, or fast, with the error it may then make.
+#pragma once
+
+#include <gnomon/filter/kernel.hpp>
+#include <gnomon/texel/texel.hpp>
+
+#include <concepts>
+#include <type_traits>
+
+namespace gnomon::inline GNOMON_BUILD {
+
+/// Any kernel, where accuracy may be traded for time: filter_scratch<rg16, fast<gaussian<4>>>. What that means depends on the texel.
+///
+///     unorm8       weights of eight bits (see eight_bit), and then no error but the one rounding; the kernel as it is if it is a
+///                  box, if 256 is a multiple of its total, or if it is wider than R = 32
+///     unorm16      weights of 15 bits, and rounded twice, after the columns and after the row: at most one code off instead of half
+///     half, float  single precision: every product and every sum is rounded, 2R+1 times a pass
+///     depth_ratio  the kernel as it is
+///
+/// Weights are within one unit of the kernel's proportions. Everything else that a filter promises still holds, in every bit on
+/// every processor: clear stays clear, e <= m, and in unorm a uniform region stays itself. `filter_roundings` tells bias the rest.
+template <kernel Kernel> struct fast {
+    static constexpr int radius = Kernel::radius;
+    static constexpr int total = Kernel::total;
+    static constexpr auto weights = Kernel::weights;
+    using exact = Kernel;
+};
+
+namespace detail {
+
+template <kernel Kernel> inline constexpr bool is_fast = requires { typename Kernel::exact; };
+/// Every tap the same.
+template <kernel Kernel> inline constexpr bool is_box = Kernel::total == 2 * Kernel::radius + 1 && Kernel::weights[0] == 1;
+
+enum class arithmetic {
+    exact,  ///< sums without error, one rounding
+    stored, ///< sums without error, rounded to storage after each pass
+    single, ///< floats
+};
+
+/// What a filter does with a texel and a kernel: in which arithmetic, by which weights.
+template <texel_format Texel, kernel Kernel> struct plan {
+    static constexpr auto how = arithmetic::exact;
+    using weights_of = Kernel;
+};
+template <texel_format Texel, kernel Kernel>
+    requires is_fast<Kernel>
+struct plan<Texel, Kernel> {
+    using channel_type = typename Texel::channel_type;
+    using given = typename Kernel::exact;
+    static constexpr bool as_it_is =
+        !Texel::representation_type::premultiplied || Kernel::radius == 0 || (channel_type::whole_codes && is_box<given>);
+    static constexpr auto how = as_it_is                              ? arithmetic::exact
+                                : !channel_type::whole_codes          ? arithmetic::single
+                                : std::same_as<channel_type, unorm16> ? arithmetic::stored
+                                                                      : arithmetic::exact;
+    static constexpr bool eight_bits = how == arithmetic::exact && !as_it_is && Kernel::radius <= 32 && 256 % Kernel::total != 0;
+    using weights_of = std::conditional_t<how == arithmetic::stored, in_units<given, 1 << 15>,
+                                          std::conditional_t<eight_bits, eight_bit<given>, given>>;
+};
+
+} // namespace detail
+
+/// How many roundings of the texel's channel a filter's error amounts to: `bias::roundings`, unless more is stored between.
+template <texel_format Texel, kernel Kernel>
+inline constexpr int filter_roundings = [] {
+    using chosen = detail::plan<Texel, Kernel>;
+    if (chosen::how == detail::arithmetic::exact) return 1;
+    if (chosen::how == detail::arithmetic::stored) return 2;
+    // Each term of a sum of 2R+1 is rounded as a product and in at most 2R sums; then the two passes' weights are divided out.
+    constexpr int roundings = 2 * (2 * Kernel::radius + 1) + 2;
+    return std::same_as<typename Texel::channel_type, float32> ? roundings + 1 : 2; // of 2^-24 each: in halves less than one
+}();
+
+} // namespace gnomon::inline GNOMON_BUILD

@@ -1,0 +1,132 @@
+// What fast<Kernel> promises of each texel, and how far it may be off.
+#include <gnomon/filter/separable.hpp>
+#include <gnomon/soft_shadow_map.hpp>
+
+#include "../support/filtering.hpp"
+#include "../support/formats.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+using namespace gnomon;
+using test::dice;
+using test::for_each_texel;
+
+template <typename Texel> int differing(const image<Texel>& a, const image<Texel>& b) {
+    int n = 0;
+    for_each_texel(whole(a.size()), [&](int x, int y) { n += a(x, y) != b(x, y); });
+    return n;
+}
+
+/// The largest distance, in codes, of a filtered map from the convolution with these weights.
+template <typename Texel> long double worst_error(const image<Texel>& from, const image<Texel>& to, const test::taps& k) {
+    long double worst = 0;
+    for_each_texel(whole(from.size()), [&](int x, int y) {
+        for (int c = 0; c < Texel::channels; ++c) {
+            const long double exact = test::convolved<long double>(from, k, x, y, c) / k.total / k.total;
+            worst = std::max(worst, std::fabs(static_cast<long double>(to(x, y).stored[c]) - exact));
+        }
+    });
+    return worst;
+}
+} // namespace
+
+static_assert(kernel<fast<gaussian<4>>> && kernel_is_sound<fast<gaussian<4>>>());
+static_assert(fast<tent<3>>::weights == tent<3>::weights && fast<tent<3>>::total == 16);
+
+TEST_CASE_TEMPLATE("fast, bytes are filtered by weights of eight bits, and by the kernel itself where that is as quick or too wide",
+                   Texel, rg8, rgba8) {
+    dice roll(701);
+    const auto from = test::noise<Texel>(roll, {41, 37}, 3);
+    const auto by_eight_bits = test::dense<eight_bit<gaussian<3>>>(from);
+    CHECK(differing(test::dense<fast<gaussian<3>>>(from), by_eight_bits) == 0);
+    CHECK(differing(test::dense<gaussian<3>>(from), by_eight_bits) > 0); // there is something to tell
+    CHECK(differing(test::dense<fast<box<3>>>(from), test::dense<box<3>>(from)) == 0);
+    CHECK(differing(test::dense<fast<binomial<4>>>(from), test::dense<binomial<4>>(from)) == 0);
+    CHECK(differing(test::dense<fast<gaussian<33>>>(from), test::dense<gaussian<33>>(from)) == 0);
+    CHECK(differing(test::dense<fast<gaussian<0>>>(from), from) == 0);
+}
+
+TEST_CASE_TEMPLATE("fast, sixteen bits are filtered by weights of fifteen and stored between columns and rows", Texel, rg16,
+                   rgb16) {
+    dice roll(702);
+    const auto from = test::noise<Texel>(roll, {41, 37}, 3);
+    const auto expected = [&from]<typename Kernel>() {
+        return test::twice_rounded(from, test::taps_of<detail::in_units<Kernel, 1 << 15>>(), test::first::columns);
+    };
+    CHECK(differing(test::dense<fast<gaussian<3>>>(from), expected.template operator()<gaussian<3>>()) == 0);
+    CHECK(differing(test::dense<fast<binomial<1>>>(from), expected.template operator()<binomial<1>>()) == 0);
+    CHECK(differing(test::dense<fast<tent<20>>>(from), expected.template operator()<tent<20>>()) == 0);
+    CHECK(differing(test::dense<fast<box<3>>>(from), test::dense<box<3>>(from)) == 0);
+    CHECK(differing(test::dense<fast<gaussian<0>>>(from), from) == 0);
+}
+
+TEST_CASE("fast, sixteen bits are at most one code from the convolution, and that far if both roundings are halves") {
+    dice roll(703);
+    const auto from = test::noise<rg16>(roll, {41, 37}, 3);
+    CHECK(worst_error(from, test::dense<fast<gaussian<3>>>(from), test::taps_of<detail::in_units<gaussian<3>, 1 << 15>>()) <= 1.0L);
+    // (1, 2, 1) / 4 down a column is 1/2 where the code below is odd; and across, of 1 and 2 in turn, 3/2.
+    image<rg16> halves({5, 5}, rg16::clear());
+    for_each_texel(whole(halves.size()), [&](int x, int y) {
+        const auto code = static_cast<std::uint16_t>(y == 3 ? 2 : (x % 2 == 0 && y == 1 ? 4 : 0));
+        halves(x, y).stored[0] = halves(x, y).stored[1] = code;
+    });
+    const auto made = test::dense<fast<tent<1>>>(halves);
+    CHECK(worst_error(halves, made, test::taps_of<tent<1>>()) == 1.0L);
+}
+
+TEST_CASE_TEMPLATE("fast, a float is within its roundings of the convolution, and farther from it than an exact sum would be",
+                   Texel, rg32f, rgba32f) {
+    dice roll(704);
+    constexpr float each = Texel::channel_type::rounding.relative;
+    const auto try_kernel = [&]<typename Kernel>() {
+        const auto from = test::noise<Texel>(roll, {41, 37}, 2);
+        const auto to = test::dense<fast<Kernel>>(from);
+        long double worst = 0;
+        for_each_texel(whole(from.size()), [&](int x, int y) {
+            for (int c = 0; c < Texel::channels; ++c) {
+                const test::taps k = test::taps_of<Kernel>();
+                const long double exact = test::convolved<long double>(from, k, x, y, c) / k.total / k.total;
+                const long double error = std::fabs(static_cast<long double>(to(x, y).stored[c]) - exact);
+                if (exact > 0) worst = std::max(worst, error / exact / each);
+            }
+        });
+        CAPTURE(Kernel::radius);
+        CHECK(worst <= filter_roundings<Texel, fast<Kernel>>);
+        CHECK(worst > 1.01L);
+    };
+    try_kernel.template operator()<gaussian<2>>();
+    try_kernel.template operator()<box<4>>();
+    try_kernel.template operator()<tent<12>>(); // 1/13^4 is no float
+}
+
+TEST_CASE_TEMPLATE("fast, clear stays clear, a uniform region of whole codes stays itself, and e <= m everywhere", Texel, rg8, rgb8,
+                   rg16, rgba16, rg16f, rgb32f) {
+    using kernel = fast<gaussian<3>>;
+    CHECK(differing(test::dense<kernel>(image<Texel>({9, 9}, Texel::clear())), image<Texel>({9, 9}, Texel::clear())) == 0);
+    const auto uniform = test::dense<kernel>(image<Texel>({9, 9}, Texel::caster(0.3f)));
+    if constexpr (Texel::channel_type::whole_codes) CHECK(uniform(4, 4) == Texel::caster(0.3f));
+    dice roll(705);
+    int wrong = 0;
+    for (int i = 0; i < 20; ++i) {
+        const auto made = test::dense<kernel>(test::noise<Texel>(roll, {33, 17}, 1 + i % 4));
+        for_each_texel(whole(made.size()), [&](int x, int y) {
+            const auto code = [&](int c) { return Texel::channel_type::code(made(x, y).stored[c]); };
+            wrong += code(Texel::depth_index) > code(Texel::mask_index);
+        });
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("a map knows how often its filter rounds, and its decisions allow for it") {
+    CHECK(soft_shadow_map<rg16, gaussian<2>>({8, 8}).decision.caster.roundings == 1);
+    CHECK(soft_shadow_map<rg16, fast<gaussian<2>>>({8, 8}).decision.caster.roundings == 2);
+    CHECK(soft_shadow_map<rgb16, fast<gaussian<2>>>({8, 8}).decision.far_bound.roundings == 2);
+    CHECK(filter_roundings<rg8, fast<gaussian<2>>> == 1);
+    CHECK(filter_roundings<tm16, fast<gaussian<2>>> == 1);
+    CHECK(filter_roundings<rg16f, fast<gaussian<2>>> == 2);
+    CHECK(filter_roundings<rg32f, fast<gaussian<2>>> == 2 * 5 + 3);
+}
