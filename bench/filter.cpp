@@ -3,6 +3,7 @@
 // Names are WHAT/FORMAT/kTAPS/SIZE, and all run in one process, so that their ratios mean something: bench/run prints these.
 //     fast, exact               simd<>, fast<gaussian> and gaussian
 //     fast.avx2, exact.avx2     simd<avx2>
+//     box, box.avx2             the same of a box, 8-bit only; its peer is boxcv, cv::boxFilter
 //     blur, sep                 cv::GaussianBlur and cv::sepFilter2D in one thread, if CMake found OpenCV
 //     copy, stream              the floor: memcpy of the same bytes, and reading with stores that pass the caches by (kTAPS is k0)
 #include <gnomon/backend/simd.hpp>
@@ -60,6 +61,23 @@ template <typename Isa, kernel Kernel, typename Texel> void add_ours(const std::
     });
 }
 
+#if GNOMON_BENCH_OPENCV
+template <typename Texel, int Taps, typename F> void add_cv(const char* what, int size, F&& filter) {
+    constexpr int type = std::same_as<Texel, rg8> ? CV_8UC2 : std::same_as<Texel, rg16> ? CV_16UC2 : CV_32FC2;
+    const auto bytes = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * sizeof(Texel);
+    add(what, format<Texel>, Taps, size, bytes, [size, filter](benchmark::State& state) {
+        cv::setNumThreads(1);
+        image<Texel> map = discs<Texel>(size);
+        const cv::Mat from(size, size, type, &map(0, 0), static_cast<std::size_t>(map.view().stride()));
+        cv::Mat to(size, size, type);
+        for ([[maybe_unused]] auto _ : state) {
+            filter(from, to);
+            benchmark::ClobberMemory();
+        }
+    });
+}
+#endif
+
 template <kernel Kernel, typename Texel> void add_all(int size) {
     add_ours<best_isa, fast<Kernel>, Texel>("fast", size);
     add_ours<best_isa, Kernel, Texel>("exact", size);
@@ -70,28 +88,12 @@ template <kernel Kernel, typename Texel> void add_all(int size) {
     }
 #endif
 #if GNOMON_BENCH_OPENCV
-    constexpr int type = std::same_as<Texel, rg8>    ? CV_8UC2
-                         : std::same_as<Texel, rg16> ? CV_16UC2
-                                                     : CV_32FC2,
-                  taps = 2 * Kernel::radius + 1;
-    const auto bytes = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * sizeof(Texel);
-    const auto add_cv = [&](const char* what, auto&& filter) {
-        add(what, format<Texel>, taps, size, bytes, [size, filter](benchmark::State& state) {
-            cv::setNumThreads(1);
-            image<Texel> map = discs<Texel>(size);
-            const cv::Mat from(size, size, type, &map(0, 0), static_cast<std::size_t>(map.view().stride()));
-            cv::Mat to(size, size, type);
-            for ([[maybe_unused]] auto _ : state) {
-                filter(from, to);
-                benchmark::ClobberMemory();
-            }
-        });
-    };
+    constexpr int taps = 2 * Kernel::radius + 1;
     const cv::Mat weights = cv::getGaussianKernel(taps, Kernel::radius / 2.0, CV_32F);
-    add_cv("blur", [](const cv::Mat& from, cv::Mat& to) {
+    add_cv<Texel, taps>("blur", size, [](const cv::Mat& from, cv::Mat& to) {
         cv::GaussianBlur(from, to, {taps, taps}, Kernel::radius / 2.0, Kernel::radius / 2.0, cv::BORDER_CONSTANT);
     });
-    add_cv("sep", [weights](const cv::Mat& from, cv::Mat& to) {
+    add_cv<Texel, taps>("sep", size, [weights](const cv::Mat& from, cv::Mat& to) {
         cv::sepFilter2D(from, to, -1, weights, weights, {-1, -1}, 0.0, cv::BORDER_CONSTANT);
     });
 #endif
@@ -124,6 +126,20 @@ template <typename Texel> void add_floor(int size) {
 #endif
 }
 
+/// Boxes: box and box.avx2, and OpenCV's.
+template <kernel Kernel> void add_box(int size) {
+    add_ours<best_isa, Kernel, rg8>("box", size);
+#if GNOMON_X86
+    if (best_lanes() >= cpu_level::avx2) add_ours<avx2, Kernel, rg8>("box.avx2", size);
+#endif
+#if GNOMON_BENCH_OPENCV
+    add_cv<rg8, 2 * Kernel::radius + 1>("boxcv", size, [](const cv::Mat& from, cv::Mat& to) {
+        constexpr int taps = 2 * Kernel::radius + 1;
+        cv::boxFilter(from, to, -1, {taps, taps}, {-1, -1}, true, cv::BORDER_CONSTANT);
+    });
+#endif
+}
+
 template <typename Texel> void add_format() {
     for (const int size : sizes) {
         add_floor<Texel>(size);
@@ -141,6 +157,11 @@ int main(int count, char** words) {
     add_format<rg8>();
     add_format<rg16>();
     add_format<rg32f>();
+    for (const int size : sizes) {
+        add_box<box<1>>(size);
+        add_box<box<4>>(size);
+        add_box<box<32>>(size);
+    }
     benchmark::Initialize(&count, words);
     if (benchmark::ReportUnrecognizedArguments(count, words)) return 1;
     benchmark::RunSpecifiedBenchmarks();

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <cstring>
 #include <vector>
 
@@ -70,7 +71,8 @@ TEST_CASE_TEMPLATE("lanes filter as the oracle does, for every width to 67 and a
             for (int offset = 0; offset < alignments; offset += width % 5 == 0 ? 1 : 5) {
                 const image_view<const Texel> part(&memory(offset, 0), {width, height}, memory.view().stride());
                 wrong += differing<Isa, binomial<2>>(part, whole(part.size())) +
-                         differing<Isa, gnomon::fast<gaussian<3>>>(part, whole(part.size()));
+                         differing<Isa, gnomon::fast<gaussian<3>>>(part, whole(part.size())) +
+                         differing<Isa, box<2>>(part, whole(part.size()));
             }
         CHECK(wrong == 0);
     });
@@ -84,8 +86,8 @@ TEST_CASE_TEMPLATE("lanes filter as the oracle does, for every shape of kernel a
         if (!roll.one_in(3)) map(x, y) = test::any_caster<Texel>(roll);
     });
     for_each_isa([&]<typename Isa>() {
-        test::for_each_kernel(test::kernels<box<0>, binomial<4>, gaussian<3>, gaussian<17>, gnomon::fast<tent<1>>,
-                                            gnomon::fast<gaussian<6>>, gnomon::fast<binomial<17>>>{},
+        test::for_each_kernel(test::kernels<box<0>, box<1>, box<32>, box<109>, box<110>, binomial<4>, gaussian<3>, gaussian<17>,
+                                            gnomon::fast<tent<1>>, gnomon::fast<gaussian<6>>, gnomon::fast<binomial<17>>>{},
                               [&]<typename Kernel>() {
                                   CAPTURE(Kernel::radius);
                                   for (const texel_rect part :
@@ -117,25 +119,55 @@ TEST_CASE_TEMPLATE("what lanes do not know is left to the oracle: a ratio of two
 
 TEST_CASE("lanes count in what is quickest and still exact: words, or doubles; and in floats where a kernel says fast") {
     using gnomon::fast;
-    using gnomon::on_any::byte_filter;
+    using gnomon::on_any::pair_filter;
     using gnomon::on_any::word_filter;
     using lanes = emulated<16>;
     const auto goes_by = []<template <typename, typename, typename> typename Filter, typename Texel, typename Kernel>() {
         return std::same_as<gnomon::on_any::filter_of<lanes, Kernel, Texel>, Filter<lanes, Kernel, Texel>>;
     };
-    CHECK(goes_by.operator()<byte_filter, rg8, binomial<4>>());
-    CHECK(goes_by.operator()<byte_filter, rg8, tent<1>>());
-    CHECK(goes_by.operator()<byte_filter, rg8, fast<gaussian<2>>>());
+    CHECK(goes_by.operator()<pair_filter, rg8, binomial<4>>());
+    CHECK(goes_by.operator()<pair_filter, rg8, tent<1>>());
+    CHECK(goes_by.operator()<pair_filter, rg8, fast<gaussian<2>>>());
     CHECK(goes_by.operator()<word_filter, gnomon::rgb8, binomial<1>>());
     CHECK(goes_by.operator()<word_filter, gnomon::rgba8, fast<gaussian<2>>>());
-    CHECK(goes_by.operator()<word_filter, gnomon::rg16, fast<binomial<1>>>());
-    CHECK(goes_by.operator()<doubles, rg8, box<1>>());      // 1/9
+    CHECK(goes_by.operator()<word_filter, gnomon::rgb16, fast<gaussian<2>>>());
+    CHECK(goes_by.operator()<pair_filter, gnomon::rg16, fast<binomial<1>>>());
+    CHECK(goes_by.operator()<doubles, rg8, tent<2>>());     // 1/81
     CHECK(goes_by.operator()<doubles, rg8, gaussian<2>>()); // sixteen bits
     CHECK(goes_by.operator()<doubles, rg8, box<0>>());      // 256 is no byte
     CHECK(goes_by.operator()<doubles, rg8, fast<gaussian<33>>>());
     CHECK(goes_by.operator()<doubles, gnomon::rg16, binomial<1>>());
-    CHECK(goes_by.operator()<doubles, gnomon::rg16, fast<box<1>>>()); // exact as it is
     CHECK(goes_by.operator()<doubles, gnomon::rg32f, gaussian<2>>());
     CHECK(goes_by.operator()<floats, gnomon::rg32f, fast<gaussian<2>>>());
     CHECK(goes_by.operator()<floats, gnomon::rgb16f, fast<box<1>>>());
+}
+
+TEST_CASE("boxes of whole codes go by running sums, as far as these fit 32 bits and a division by them is a product") {
+    using gnomon::on_any::runs_sums;
+    CHECK((runs_sums<box<1>, rg8> && runs_sums<box<256>, gnomon::rgba8> && runs_sums<gnomon::fast<box<7>>, gnomon::rgb16>));
+    CHECK((runs_sums<box<109>, gnomon::rg16> && !runs_sums<box<128>, gnomon::rg16>));
+    CHECK_FALSE((runs_sums<box<0>, rg8> || runs_sums<tent<1>, rg8> || runs_sums<box<1>, gnomon::rg16f>));
+}
+
+TEST_CASE("a sum divided by way of a product is the quotient rounded to nearest, halves upwards, on both sides of every step") {
+    const auto wrong_of = []<std::uint64_t Divisor, std::uint64_t Codes>() {
+        using by = gnomon::on_any::division<Divisor, Codes>;
+        static_assert(by::exact);
+        const auto quotient = [](std::uint64_t sum) { return (sum + Divisor / 2) * by::factor >> by::shift; };
+        int n = 0;
+        for (std::uint64_t code = 0; code <= Codes; ++code) {
+            n += quotient(code * Divisor) != code;
+            if (code == Codes) break;
+            const std::uint64_t half = code * Divisor + (Divisor + 1) / 2; // the first that is nearer to the next code
+            n += quotient(half - 1) != code;
+            n += quotient(half) != code + 1;
+        }
+        return n;
+    };
+    CHECK(wrong_of.template operator()<9, 255>() == 0);
+    CHECK(wrong_of.template operator()<65 * 65, 255>() == 0);
+    CHECK(wrong_of.template operator()<513 * 513, 255>() == 0);
+    CHECK(wrong_of.template operator()<9, 65535>() == 0);
+    CHECK(wrong_of.template operator()<219 * 219, 65535>() == 0);
+    CHECK_FALSE(gnomon::on_any::division<221 * 221, 65535>::exact);
 }

@@ -10,6 +10,49 @@ template <typename Isa> int differing(const typename Isa::doubles& a, const type
     return std::memcmp(&a, &b, sizeof a) != 0;
 }
 
+/// The same of those that serve running sums.
+template <typename Isa> int wrong_sums(const memory* m) {
+    using same = gnomon::emulated<Isa::bytes>;
+    const auto a = Isa::load(m[0].byte), b = Isa::load(m[1].byte);
+    const auto e = same::load(m[0].byte), f = same::load(m[1].byte);
+    std::uint8_t bytes[17]{}, expected_bytes[17]{};
+    std::uint16_t words[17]{}, expected_words[17]{}, from[16];
+    std::memcpy(from, m[2].byte, sizeof from);
+    Isa::store_low(bytes, a);
+    same::store_low(expected_bytes, e);
+    Isa::store_low(words, a);
+    same::store_low(expected_words, e);
+    const auto shifted = [&]<int Places>() {
+        return differing<Isa>(Isa::template shift_up32<Places>(a), same::template shift_up32<Places>(e));
+    };
+    const auto repeated = [&]<int Count>() {
+        return differing<Isa>(Isa::template repeat_last32<Count>(a), same::template repeat_last32<Count>(e));
+    };
+    int n = (std::memcmp(bytes, expected_bytes, sizeof bytes) != 0) + (std::memcmp(words, expected_words, sizeof words) != 0);
+    n += shifted.template operator()<1>() + shifted.template operator()<2>() + shifted.template operator()<3>();
+    if constexpr (Isa::float_lanes > 4) n += shifted.template operator()<4>() + shifted.template operator()<6>();
+    if constexpr (Isa::float_lanes > 8) n += shifted.template operator()<8>() + shifted.template operator()<12>();
+    n += repeated.template operator()<1>() + repeated.template operator()<2>() + repeated.template operator()<3>() +
+         repeated.template operator()<4>();
+    return n + differing<Isa>(Isa::add32(a, b), same::add32(e, f)) + differing<Isa>(Isa::subtract32(a, b), same::subtract32(e, f)) +
+           differing<Isa>(Isa::widen32(m[2].byte), same::widen32(m[2].byte)) +
+           differing<Isa>(Isa::widen32(from), same::widen32(from)) +
+           differing<Isa>(Isa::template multiply_shift32<32>(a, b), same::template multiply_shift32<32>(e, f)) +
+           differing<Isa>(Isa::template multiply_shift32<45>(a, b), same::template multiply_shift32<45>(e, f));
+}
+
+/// The same of those that only some lanes have.
+template <typename Isa> int wrong_fours(const memory* m) {
+    int n = 0;
+    if constexpr (gnomon::sums_quads<Isa>) {
+        using same = gnomon::emulated<Isa::bytes>;
+        const auto a = Isa::load(m[0].byte), b = Isa::load(m[1].byte), c = Isa::load(m[2].byte);
+        const auto e = same::load(m[0].byte), f = same::load(m[1].byte), g = same::load(m[2].byte);
+        n += differing<Isa>(Isa::add_dot8(a, b, c), same::add_dot8(e, f, g));
+    }
+    return n;
+}
+
 /// How many operations on whole numbers answer otherwise.
 template <typename Isa> int wrong_ints(const memory* m) {
     using same = gnomon::emulated<Isa::bytes>;
@@ -43,7 +86,15 @@ template <typename Isa> int wrong_ints(const memory* m) {
            differing<Isa>(Isa::narrow32(Isa::template shift_right32<16>(a), Isa::template shift_right32<16>(b)),
                           same::narrow32(same::template shift_right32<16>(e), same::template shift_right32<16>(f))) +
            differing<Isa>(Isa::narrow16(Isa::load(bytes_in_words.byte), Isa::load(bytes_in_words.byte)),
-                          same::narrow16(same::load(bytes_in_words.byte), same::load(bytes_in_words.byte)));
+                          same::narrow16(same::load(bytes_in_words.byte), same::load(bytes_in_words.byte))) +
+           differing<Isa>(Isa::even_words(a, b), same::even_words(e, f)) +
+           differing<Isa>(Isa::odd_words(a, b), same::odd_words(e, f)) +
+           differing<Isa>(Isa::even_lanes(a, b), same::even_lanes(e, f)) +
+           differing<Isa>(Isa::odd_lanes(a, b), same::odd_lanes(e, f)) +
+           differing<Isa>(Isa::low_pairs32(a, b), same::low_pairs32(e, f)) +
+           differing<Isa>(Isa::high_pairs32(a, b), same::high_pairs32(e, f)) +
+           differing<Isa>(Isa::template join_words<15>(a, b), same::template join_words<15>(e, f)) + wrong_sums<Isa>(m) +
+           wrong_fours<Isa>(m);
 }
 
 /// The same for arithmetic and comparisons of floats, any of which may be none: what is left of a NaN may be any NaN.

@@ -8,18 +8,21 @@
 
 #define GNOMON_ON on_any
 #include <gnomon/backend/simd_filter.hpp>
+#include <gnomon/backend/simd_box.hpp>
 #include <gnomon/backend/simd_receive.hpp>
 #undef GNOMON_ON
 #if GNOMON_X86
 GNOMON_TARGET_BEGIN(GNOMON_AVX2)
 #define GNOMON_ON on_avx2
 #include <gnomon/backend/simd_filter.hpp>
+#include <gnomon/backend/simd_box.hpp>
 #include <gnomon/backend/simd_receive.hpp>
 #undef GNOMON_ON
 GNOMON_TARGET_END
 GNOMON_TARGET_BEGIN(GNOMON_AVX512)
 #define GNOMON_ON on_avx512
 #include <gnomon/backend/simd_filter.hpp>
+#include <gnomon/backend/simd_box.hpp>
 #include <gnomon/backend/simd_receive.hpp>
 #undef GNOMON_ON
 GNOMON_TARGET_END
@@ -45,11 +48,11 @@ template <typename Isa> inline constexpr bool has_lanes = GNOMON_X86 != 0 || !st
 template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
     if constexpr (std::same_as<Isa, avx512>)
-        return on_avx512::filter_rows<avx512, Kernel, Texel>(from, to, region);
+        return on_avx512::filter<avx512, Kernel, Texel>(from, to, region);
     else if constexpr (std::same_as<Isa, avx2>)
-        return on_avx2::filter_rows<avx2, Kernel, Texel>(from, to, region);
+        return on_avx2::filter<avx2, Kernel, Texel>(from, to, region);
     else
-        return on_any::filter_rows<Isa, Kernel, Texel>(from, to, region);
+        return on_any::filter<Isa, Kernel, Texel>(from, to, region);
 }
 template <typename Isa, texel_format Texel>
 void receive_on(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
@@ -71,7 +74,7 @@ template <typename F> auto with_lanes(cpu_level level, F&& f) noexcept {
 #else
 template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
-    return on_any::filter_rows<Isa, Kernel, Texel>(from, to, region);
+    return on_any::filter<Isa, Kernel, Texel>(from, to, region);
 }
 template <typename Isa, texel_format Texel>
 void receive_on(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,

@@ -58,6 +58,49 @@ struct avx2 {
     template <int Bits> GNOMON_LANES ints shift_right32(ints a) noexcept { return _mm256_srai_epi32(a, Bits); }
     GNOMON_LANES ints narrow32(ints a, ints b) noexcept { return _mm256_packs_epi32(a, b); }
     GNOMON_LANES ints narrow16(ints a, ints b) noexcept { return _mm256_permute4x64_epi64(_mm256_packus_epi16(a, b), 0xD8); }
+    GNOMON_LANES ints even_words(ints a, ints b) noexcept { return _mm256_unpacklo_epi64(words_apart(a), words_apart(b)); }
+    GNOMON_LANES ints odd_words(ints a, ints b) noexcept { return _mm256_unpackhi_epi64(words_apart(a), words_apart(b)); }
+    GNOMON_LANES ints even_lanes(ints a, ints b) noexcept { return _mm256_permute2x128_si256(a, b, 0x20); }
+    GNOMON_LANES ints odd_lanes(ints a, ints b) noexcept { return _mm256_permute2x128_si256(a, b, 0x31); }
+    GNOMON_LANES ints low_pairs32(ints a, ints b) noexcept { return _mm256_unpacklo_epi32(a, b); }
+    GNOMON_LANES ints high_pairs32(ints a, ints b) noexcept { return _mm256_unpackhi_epi32(a, b); }
+    template <int Shift> GNOMON_LANES ints join_words(ints a, ints b) noexcept {
+        return _mm256_blend_epi16(_mm256_srli_epi32(a, Shift), _mm256_slli_epi32(b, 16 - Shift), 0xAA);
+    }
+    GNOMON_LANES ints add32(ints a, ints b) noexcept { return _mm256_add_epi32(a, b); }
+    GNOMON_LANES ints subtract32(ints a, ints b) noexcept { return _mm256_sub_epi32(a, b); }
+    template <typename Storage> GNOMON_LANES ints widen32(const Storage* from) noexcept {
+        if constexpr (sizeof(Storage) == 1)
+            return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)));
+        else
+            return _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
+    }
+    template <typename Storage> GNOMON_LANES_VOID void store_low(Storage* to, ints a) noexcept {
+        constexpr int bits = 8 * static_cast<int>(sizeof(Storage));
+        const ints low = _mm256_and_si256(a, _mm256_set1_epi32((1 << bits) - 1));
+        const __m128i words = _mm_packus_epi32(_mm256_castsi256_si128(low), _mm256_extracti128_si256(low, 1));
+        if constexpr (sizeof(Storage) == 1)
+            _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_packus_epi16(words, words));
+        else
+            _mm_storeu_si128(reinterpret_cast<__m128i*>(to), words);
+    }
+    template <int Places> GNOMON_LANES ints shift_up32(ints a) noexcept {
+        const ints below = _mm256_permute2x128_si256(a, a, 0x08); // nothing, and the lower half above it
+        if constexpr (Places >= 4)
+            return _mm256_slli_si256(below, 4 * (Places - 4));
+        else
+            return _mm256_alignr_epi8(a, below, 16 - 4 * Places);
+    }
+    template <int Count> GNOMON_LANES ints repeat_last32(ints a) noexcept {
+        constexpr auto from = [](int i) { return 8 - Count + i % Count; };
+        return _mm256_permutevar8x32_epi32(
+            a, _mm256_setr_epi32(from(0), from(1), from(2), from(3), from(4), from(5), from(6), from(7)));
+    }
+    template <int Shift> GNOMON_LANES ints multiply_shift32(ints a, ints b) noexcept {
+        const ints even = _mm256_srli_epi64(_mm256_mul_epu32(a, b), Shift);
+        const ints odd = _mm256_srli_epi64(_mm256_mul_epu32(_mm256_srli_epi64(a, 32), _mm256_srli_epi64(b, 32)), Shift);
+        return _mm256_or_si256(even, _mm256_slli_epi64(odd, 32));
+    }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
     GNOMON_LANES floats load(const float* from) noexcept { return _mm256_loadu_ps(from); }
@@ -149,6 +192,11 @@ struct avx2 {
     }
 
   private:
+    /// In each 16 bytes: words 0, 2, 4, 6, and 1, 3, 5, 7 behind them.
+    GNOMON_LANES ints words_apart(ints a) noexcept {
+        return _mm256_shuffle_epi8(
+            a, _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 4, 5, 8, 9, 12, 13, 2, 3, 6, 7, 10, 11, 14, 15)));
+    }
     /// Cut to the 24 bits of a float, the last one set if anything was lost: rounding that to a half rounds once.
     GNOMON_LANES doubles to_odd(doubles a) noexcept {
         const ints lost = _mm256_set1_epi64x((1 << 29) - 1), bits = _mm256_castpd_si256(a);

@@ -5,6 +5,7 @@
 #if GNOMON_X86
 #include <gnomon/simd/emulated.hpp>
 
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <cstring>
@@ -59,6 +60,45 @@ struct avx512 {
     GNOMON_LANES ints add_dot8(ints sum, ints weights, ints values) noexcept { return _mm512_dpbusd_epi32(sum, values, weights); }
     GNOMON_LANES ints even_words(ints a, ints b) noexcept { return _mm512_permutex2var_epi16(a, word_order(0), b); }
     GNOMON_LANES ints odd_words(ints a, ints b) noexcept { return _mm512_permutex2var_epi16(a, word_order(1), b); }
+    GNOMON_LANES ints even_lanes(ints a, ints b) noexcept { return _mm512_maskz_shuffle_i64x2(eight, a, b, 0x88); }
+    GNOMON_LANES ints odd_lanes(ints a, ints b) noexcept { return _mm512_maskz_shuffle_i64x2(eight, a, b, 0xDD); }
+    GNOMON_LANES ints low_pairs32(ints a, ints b) noexcept { return _mm512_maskz_unpacklo_epi32(all, a, b); }
+    GNOMON_LANES ints high_pairs32(ints a, ints b) noexcept { return _mm512_maskz_unpackhi_epi32(all, a, b); }
+    template <int Shift> GNOMON_LANES ints join_words(ints a, ints b) noexcept {
+        return chosen(_mm512_set1_epi32(0xFFFF), _mm512_maskz_srli_epi32(all, a, Shift),
+                      _mm512_maskz_slli_epi32(all, b, 16 - Shift));
+    }
+    GNOMON_LANES ints add32(ints a, ints b) noexcept { return _mm512_add_epi32(a, b); }
+    GNOMON_LANES ints subtract32(ints a, ints b) noexcept { return _mm512_sub_epi32(a, b); }
+    template <typename Storage> GNOMON_LANES ints widen32(const Storage* from) noexcept {
+        if constexpr (sizeof(Storage) == 1)
+            return _mm512_maskz_cvtepu8_epi32(all, _mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
+        else
+            return _mm512_maskz_cvtepu16_epi32(all, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
+    }
+    template <typename Storage> GNOMON_LANES_VOID void store_low(Storage* to, ints a) noexcept {
+        if constexpr (sizeof(Storage) == 1)
+            _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm512_maskz_cvtepi32_epi8(all, a));
+        else
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_maskz_cvtepi32_epi16(all, a));
+    }
+    template <int Places> GNOMON_LANES ints shift_up32(ints a) noexcept {
+        return _mm512_maskz_alignr_epi32(all, a, _mm512_setzero_si512(), 16 - Places);
+    }
+    template <int Count> GNOMON_LANES ints repeat_last32(ints a) noexcept {
+        alignas(64) static constexpr auto from = [] {
+            std::array<std::int32_t, 16> places{};
+            for (int i = 0; i < 16; ++i) places[static_cast<std::size_t>(i)] = 16 - Count + i % Count;
+            return places;
+        }();
+        return _mm512_maskz_permutexvar_epi32(all, load(from.data()), a);
+    }
+    template <int Shift> GNOMON_LANES ints multiply_shift32(ints a, ints b) noexcept {
+        const ints even = _mm512_maskz_srli_epi64(eight, _mm512_maskz_mul_epu32(eight, a, b), Shift);
+        const ints upper_a = _mm512_maskz_srli_epi64(eight, a, 32), upper_b = _mm512_maskz_srli_epi64(eight, b, 32);
+        const ints odd = _mm512_maskz_srli_epi64(eight, _mm512_maskz_mul_epu32(eight, upper_a, upper_b), Shift);
+        return _mm512_or_si512(even, _mm512_maskz_slli_epi64(eight, odd, 32));
+    }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
     GNOMON_LANES floats load(const float* from) noexcept { return _mm512_loadu_ps(from); }

@@ -114,6 +114,43 @@ template <int Bytes> struct emulated {
     /// that hold pairs, 16 bytes of either in turn, the first numbers and the second ones.
     [[nodiscard]] static ints even_words(ints a, ints b) noexcept { return words(a, b, 0); }
     [[nodiscard]] static ints odd_words(ints a, ints b) noexcept { return words(a, b, 1); }
+    /// Of each two groups of 16 bytes the first: of `a`, then of `b`; and the second. (16 bytes: `a`, and `b`.)
+    [[nodiscard]] static ints even_lanes(ints a, ints b) noexcept { return lanes(a, b, 0); }
+    [[nodiscard]] static ints odd_lanes(ints a, ints b) noexcept { return lanes(a, b, 16); }
+    /// In each 16 bytes: the lower two 32 bits of `a` in turn with those of `b`; and the upper two.
+    [[nodiscard]] static ints low_pairs32(ints a, ints b) noexcept { return paired<std::uint32_t>(a, b, 0); }
+    [[nodiscard]] static ints high_pairs32(ints a, ints b) noexcept { return paired<std::uint32_t>(a, b, 8); }
+    /// 32 bits: 16 from bit `Shift` of `a` on, and 16 of `b` above them. Shift < 16
+    template <int Shift> [[nodiscard]] static ints join_words(ints a, ints b) noexcept {
+        return each<std::uint32_t>(
+            [&](int i) { return (at<std::uint32_t>(a, i) >> Shift & 0xFFFF) | (at<std::uint32_t>(b, i) >> Shift & 0xFFFF) << 16; });
+    }
+    [[nodiscard]] static ints add32(ints a, ints b) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) + at<std::uint32_t>(b, i); });
+    }
+    [[nodiscard]] static ints subtract32(ints a, ints b) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) - at<std::uint32_t>(b, i); });
+    }
+    /// Bytes or 16 bits, one to each 32 bits; and back, the lowest of each.
+    template <typename Storage> [[nodiscard]] static ints widen32(const Storage* from) noexcept {
+        return each<std::uint32_t>([&](int i) { return from[i]; });
+    }
+    template <typename Storage> static void store_low(Storage* to, ints a) noexcept {
+        for (int i = 0; i < float_lanes; ++i) to[i] = static_cast<Storage>(at<std::uint32_t>(a, i));
+    }
+    /// Each 32 bits so many places on, zeros before them.
+    template <int Places> [[nodiscard]] static ints shift_up32(ints a) noexcept {
+        return each<std::uint32_t>([&](int i) { return i < Places ? 0u : at<std::uint32_t>(a, i - Places); });
+    }
+    /// The last `Count` of 32 bits, again and again from the first place on.
+    template <int Count> [[nodiscard]] static ints repeat_last32(ints a) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, float_lanes - Count + i % Count); });
+    }
+    /// a * b / 2^Shift, unsigned, rounded down. \pre it fits, and 32 <= Shift < 64
+    template <int Shift> [[nodiscard]] static ints multiply_shift32(ints a, ints b) noexcept {
+        return each<std::uint32_t>(
+            [&](int i) { return std::uint64_t{at<std::uint32_t>(a, i)} * at<std::uint32_t>(b, i) >> Shift; });
+    }
     /// Nothing. Where a compiler would sum products as a tree, which takes more registers than there are, it keeps their order.
     static void settle(ints&) noexcept {}
 
@@ -236,6 +273,12 @@ template <int Bytes> struct emulated {
     }
     [[nodiscard]] static ints words(ints a, ints b, int odd) noexcept {
         return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(i % 8 < 4 ? a : b, i / 8 * 8 + i % 4 * 2 + odd); });
+    }
+    [[nodiscard]] static ints lanes(ints a, ints b, int first) noexcept {
+        return each<std::uint8_t>([&](int i) {
+            const int from = (i / 16 * 32 + first + i % 16);
+            return (from < Bytes ? a : b).byte[from % Bytes];
+        });
     }
     [[nodiscard]] static ints in_turn(ints low, ints high, int first) noexcept {
         return each<std::uint8_t>([&](int i) {

@@ -47,6 +47,20 @@ concept simd_isa =
         { Isa::template shift_right32<16>(i) } -> std::same_as<typename Isa::ints>;
         { Isa::narrow32(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::narrow16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::even_words(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::odd_words(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::even_lanes(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::odd_lanes(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::low_pairs32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::high_pairs32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template join_words<15>(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::add32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::subtract32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::widen32(static_cast<const std::uint8_t*>(codes)) } -> std::same_as<typename Isa::ints>;
+        { Isa::store_low(codes, i) };
+        { Isa::template shift_up32<2>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template repeat_last32<2>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template multiply_shift32<32>(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::settle(i) };
         { Isa::load(static_cast<const float*>(numbers)) } -> std::same_as<typename Isa::floats>;
         { Isa::store(numbers, f) };
@@ -80,8 +94,6 @@ concept simd_isa =
 template <typename Isa>
 concept sums_quads = simd_isa<Isa> && requires(typename Isa::ints i) {
     { Isa::add_dot8(i, i, i) } -> std::same_as<typename Isa::ints>;
-    { Isa::even_words(i, i) } -> std::same_as<typename Isa::ints>;
-    { Isa::odd_words(i, i) } -> std::same_as<typename Isa::ints>;
 };
 
 /// Which lanes a processor has.

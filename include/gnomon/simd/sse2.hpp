@@ -58,6 +58,49 @@ struct sse2 {
     template <int Bits> GNOMON_LANES ints shift_right32(ints a) noexcept { return _mm_srai_epi32(a, Bits); }
     GNOMON_LANES ints narrow32(ints a, ints b) noexcept { return _mm_packs_epi32(a, b); }
     GNOMON_LANES ints narrow16(ints a, ints b) noexcept { return _mm_packus_epi16(a, b); }
+    GNOMON_LANES ints even_words(ints a, ints b) noexcept {
+        return _mm_packs_epi32(_mm_srai_epi32(_mm_slli_epi32(a, 16), 16), _mm_srai_epi32(_mm_slli_epi32(b, 16), 16));
+    }
+    GNOMON_LANES ints odd_words(ints a, ints b) noexcept { return _mm_packs_epi32(_mm_srai_epi32(a, 16), _mm_srai_epi32(b, 16)); }
+    GNOMON_LANES ints even_lanes(ints a, ints) noexcept { return a; }
+    GNOMON_LANES ints odd_lanes(ints, ints b) noexcept { return b; }
+    GNOMON_LANES ints low_pairs32(ints a, ints b) noexcept { return _mm_unpacklo_epi32(a, b); }
+    GNOMON_LANES ints high_pairs32(ints a, ints b) noexcept { return _mm_unpackhi_epi32(a, b); }
+    template <int Shift> GNOMON_LANES ints join_words(ints a, ints b) noexcept {
+        return _mm_or_si128(_mm_and_si128(_mm_srli_epi32(a, Shift), _mm_set1_epi32(0xFFFF)),
+                            _mm_slli_epi32(_mm_srli_epi32(b, Shift), 16));
+    }
+    GNOMON_LANES ints add32(ints a, ints b) noexcept { return _mm_add_epi32(a, b); }
+    GNOMON_LANES ints subtract32(ints a, ints b) noexcept { return _mm_sub_epi32(a, b); }
+    template <typename Storage> GNOMON_LANES ints widen32(const Storage* from) noexcept {
+        const ints none = _mm_setzero_si128();
+        if constexpr (sizeof(Storage) == 1) {
+            int four;
+            std::memcpy(&four, from, sizeof four);
+            return _mm_unpacklo_epi16(_mm_unpacklo_epi8(_mm_cvtsi32_si128(four), none), none);
+        } else {
+            return _mm_unpacklo_epi16(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)), none);
+        }
+    }
+    template <typename Storage> GNOMON_LANES_VOID void store_low(Storage* to, ints a) noexcept {
+        const ints words = _mm_packs_epi32(_mm_srai_epi32(_mm_slli_epi32(a, 16), 16), a);
+        if constexpr (sizeof(Storage) == 1) {
+            const int four = _mm_cvtsi128_si32(_mm_packus_epi16(_mm_and_si128(words, _mm_set1_epi16(255)), words));
+            std::memcpy(to, &four, sizeof four);
+        } else {
+            _mm_storel_epi64(reinterpret_cast<__m128i*>(to), words);
+        }
+    }
+    template <int Places> GNOMON_LANES ints shift_up32(ints a) noexcept { return _mm_slli_si128(a, 4 * Places); }
+    template <int Count> GNOMON_LANES ints repeat_last32(ints a) noexcept {
+        constexpr auto from = [](int i) { return 4 - Count + i % Count; };
+        return _mm_shuffle_epi32(a, from(0) | from(1) << 2 | from(2) << 4 | from(3) << 6);
+    }
+    template <int Shift> GNOMON_LANES ints multiply_shift32(ints a, ints b) noexcept {
+        const ints even = _mm_srli_epi64(_mm_mul_epu32(a, b), Shift);
+        const ints odd = _mm_srli_epi64(_mm_mul_epu32(_mm_srli_epi64(a, 32), _mm_srli_epi64(b, 32)), Shift);
+        return _mm_or_si128(even, _mm_slli_epi64(odd, 32));
+    }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
     GNOMON_LANES floats load(const float* from) noexcept { return _mm_loadu_ps(from); }

@@ -1,0 +1,137 @@
+// gnomon: soft shadow maps. The box filter in lanes, whose cost does not know its radius. backend/simd.hpp includes it once for each
+// target, inside its region, so there is no #pragma once: GNOMON_ON names the namespace it goes to; without it there is nothing.
+//
+// Down the columns a sum runs: from row to row one code comes in and one goes out. Across them it is the difference of two sums from
+// the left end, which a register makes in a few steps. All in whole numbers modulo 2^32, so that nothing drifts.
+
+#include <gnomon/filter/separable.hpp>
+#include <gnomon/simd/region.hpp>
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#ifdef GNOMON_ON
+namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
+
+/// sum / Divisor to nearest, halves upwards, for sums up to Divisor * codes: times 2^shift / Divisor rounded up. That is right as long
+/// as what rounding up adds, at most sum * excess / 2^shift / Divisor, stays below one of the steps of 1 / Divisor.
+template <std::uint64_t Divisor, std::uint64_t Codes> struct division {
+    static constexpr std::uint64_t largest = Divisor * Codes + Divisor / 2;
+    static constexpr int shift = 31 + std::bit_width(Divisor);
+    static constexpr std::uint64_t factor = ((std::uint64_t{1} << shift) + Divisor - 1) / Divisor;
+    static constexpr std::uint64_t excess = factor * Divisor - (std::uint64_t{1} << shift);
+    static constexpr bool exact =
+        largest < (std::uint64_t{1} << 32) && factor < (std::uint64_t{1} << 32) && excess * largest < (std::uint64_t{1} << shift);
+};
+
+/// Whole codes under equal weights.
+template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
+    using storage = typename Texel::storage;
+    using ints = typename Isa::ints;
+    static constexpr int channels = Texel::channels, step = Isa::float_lanes;
+    static constexpr int margin = Kernel::radius * channels, window = Kernel::total * channels;
+    static constexpr int strip = strip_bytes / 4 / channels * channels;
+    static constexpr int line_size = window + strip + 2 * step;
+    using normalised =
+        division<std::uint64_t{Kernel::total} * Kernel::total, static_cast<std::uint64_t>(Texel::channel_type::scale)>;
+
+    /// Adds a row to the sums of columns and takes one away.
+    static void run(std::uint32_t* sums, const storage* in, const storage* out, int count) noexcept {
+        int i = 0;
+        for (; i + step <= count; i += step)
+            Isa::store(sums + i, Isa::add32(Isa::load(sums + i), Isa::subtract32(Isa::widen32(in + i), Isa::widen32(out + i))));
+        for (; i < count; ++i) sums[i] += std::uint32_t{in[i]} - out[i];
+    }
+
+    /// Each sum and all before it of its channel.
+    static void accumulate(const std::uint32_t* sums, std::uint32_t* all, int count) noexcept {
+        ints before = Isa::repeat32(0);
+        for (int i = 0; i < count; i += step) {
+            ints a = Isa::load(sums + i);
+            a = added<channels>(a);
+            a = Isa::add32(a, before);
+            Isa::store(all + i, a);
+            before = Isa::template repeat_last32<channels>(a);
+        }
+    }
+
+    /// Rounded means of windows: what lies between their ends.
+    static void divide(const std::uint32_t* first, storage* to, int count) noexcept {
+        const ints half = Isa::repeat32(static_cast<std::uint32_t>(Kernel::total) * Kernel::total / 2);
+        const ints factor = Isa::repeat32(static_cast<std::uint32_t>(normalised::factor));
+        for (int i = 0; i < count; i += step) {
+            const ints sum = Isa::subtract32(Isa::load(first + window + i), Isa::load(first + i));
+            Isa::store_low(to + i, Isa::template multiply_shift32<normalised::shift>(Isa::add32(sum, half), factor));
+        }
+    }
+
+  private:
+    /// What stands `Places`, twice, four times as many places before, added in.
+    template <int Places> GNOMON_LANES ints added(ints a) noexcept {
+        if constexpr (Places < step)
+            return added<2 * Places>(Isa::add32(a, Isa::template shift_up32<Places>(a)));
+        else
+            return a;
+    }
+};
+
+/// Can lanes run sums of this texel and kernel? A kernel of one tap is as quick without.
+template <kernel Kernel, texel_format Texel>
+inline constexpr bool runs_sums = [] {
+    if constexpr (Texel::channel_type::whole_codes && Kernel::radius > 0 &&
+                  detail::is_box<typename detail::sums<Texel, Kernel>::weights_of>)
+        return division<std::uint64_t{Kernel::total} * Kernel::total,
+                        static_cast<std::uint64_t>(Texel::channel_type::scale)>::exact;
+    else
+        return false;
+}();
+
+/// filter_region for a box in lanes, for a region within both images.
+template <typename Isa, kernel Kernel, texel_format Texel>
+void filter_box(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
+    using pass = box_filter<Isa, Kernel, Texel>;
+    using storage = typename Texel::storage;
+    constexpr int channels = Texel::channels, radius = Kernel::radius;
+    const int row_size = from.width() * channels;
+
+    alignas(64) std::uint32_t sums[static_cast<std::size_t>(pass::line_size)];
+    alignas(64) std::uint32_t all[static_cast<std::size_t>(pass::step + pass::line_size)];
+    alignas(64) storage made[static_cast<std::size_t>(pass::strip + pass::step)];
+    Texel nothing[static_cast<std::size_t>((pass::line_size + channels - 1) / channels)];
+    for (Texel& each : nothing) each = Texel::clear();
+    for (int i = 0; i < pass::step; ++i) all[i] = 0;
+    std::uint32_t* const ends = all + pass::step; // of the columns up to each; of none, before the first
+
+    for (int x0 = region.x0 * channels; x0 < region.x1 * channels; x0 += pass::strip) {
+        const int x1 = lesser(x0 + pass::strip, region.x1 * channels), left = x0 - pass::margin, right = x1 + pass::margin;
+        const int first = greater(left, 0), last = greater(lesser(right, row_size), first); // the columns that are there
+        const auto row = [&](int y) {
+            return y >= 0 && y < from.height() ? channels_of(from.row(y)) + first : channels_of(nothing);
+        };
+        const auto step_to = [&](int y, const storage* out) { pass::run(sums + (first - left), row(y), out, last - first); };
+        // What a column of clear sums to; then row by row what is there in its place, as far as the window above the first row.
+        for (int i = 0; i < pass::line_size; ++i) sums[i] = std::uint32_t{Kernel::total} * channels_of(nothing)[i % channels];
+        for (int y = region.y0 - radius - 1; y < region.y0 + radius; ++y) step_to(y, channels_of(nothing));
+        for (int y = region.y0; y < region.y1; ++y) {
+            step_to(y + radius, row(y - radius - 1));
+            pass::accumulate(sums, ends, right - left);
+            pass::divide(ends - channels, made, x1 - x0);
+            std::memcpy(channels_of(to.row(y)) + x0, made, static_cast<std::size_t>(x1 - x0) * sizeof(storage));
+        }
+    }
+}
+
+/// filter_region in lanes, for a region within both images. False, and nothing done, where rows are shorter than a register.
+template <typename Isa, kernel Kernel, texel_format Texel>
+bool filter(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
+    if constexpr (runs_sums<Kernel, Texel>) {
+        filter_box<Isa, Kernel, Texel>(from, to, region);
+        return true;
+    } else {
+        return filter_rows<Isa, Kernel, Texel>(from, to, region);
+    }
+}
+
+} // namespace gnomon::inline GNOMON_BUILD::GNOMON_ON
+#endif
