@@ -63,7 +63,8 @@ def receives(time):
 def sparses(path):
     """Time over what the same area costs in a map that is filtered whole; of frames, with all else that a frame does."""
     time, ratios = medians(path), {}
-    area = {run["run_name"]: run["area"] for run in json.loads(pathlib.Path(path).read_text())["benchmarks"] if "area" in run}
+    area = {run["run_name"]: run["area"] for run in json.loads(pathlib.Path(path).read_text())["benchmarks"]
+            if "area" in run and run.get("aggregate_name") == "median"}
     of = "/u8x2/k9/1024"
     for suffix in ("", ".avx2"):
         dense = time.get(f"dense{suffix}{of}")
