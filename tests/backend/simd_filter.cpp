@@ -13,6 +13,7 @@
 #include <concepts>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -95,6 +96,17 @@ TEST_CASE_TEMPLATE("lanes filter as the oracle does, for every shape of kernel a
                                         texel_rect{0, 0, 33, 1}, texel_rect{500, 2, 590, 21}, texel_rect{5, 5, 5, 9}})
                                       CHECK(differing<Isa, Kernel>(image_view<const Texel>(map.view()), part) == 0);
                               });
+    });
+}
+
+TEST_CASE("what is too large for the caches goes past them, whole registers where they are aligned, and is the same") {
+    dice roll(405);
+    image<gnomon::rg32f> map({2070, 1030}, gnomon::rg32f::clear());
+    for_each_texel(whole(map.size()), [&](int x, int y) { map(x, y) = gnomon::rg32f::caster(roll.unit()); });
+    const texel_rect region{3, 1, 2068, 1029}; // begins within a register
+    static_assert((2068LL - 3) * 1028 * 8 >= gnomon::on_any::streamed_bytes);
+    for_each_isa([&]<typename Isa>() {
+        CHECK(differing<Isa, gnomon::fast<binomial<1>>>(image_view(std::as_const(map).view()), region) == 0);
     });
 }
 
