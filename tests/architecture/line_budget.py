@@ -1,7 +1,7 @@
 """What every file of a user pays for an include: lines that are left after the preprocessor, without the empty ones."""
 import headers
 
-TEXEL, STORAGE, FILTER, UMBRELLA, INTRINSICS = 13000, 19000, 20000, 24000, 64000
+TEXEL, STORAGE, FILTER, UMBRELLA, INTRINSICS = 13000, 19000, 20000, 24000, 66000
 STORES = {"gnomon/texel/image.hpp", "gnomon/grid/tile_grid.hpp"}  # these own memory, so they include <vector>
 HEAVY = {"algorithm", "cmath", "functional", "memory", "ranges", "string", "iostream"}
 LIGHT_FOLDERS = {"texel", "grid", "filter", "receive", "backend"}
@@ -13,7 +13,7 @@ def folder(header):
 
 def budget(include, header):
     if any(folder(h) == "simd" and h != "gnomon/simd/region.hpp" for h in headers.closure(include, header)):
-        return INTRINSICS  # 40,000 of them are immintrin.h
+        return INTRINSICS  # 40,000 of them are immintrin.h, and what is written for lanes comes once for each target
     if folder(header) in ("filter", "receive", "baseline", "identity"):
         return FILTER
     if folder(header) in ("backend", "soft_shadow_map.hpp", "gnomon.hpp"):

@@ -145,7 +145,7 @@ TEST_CASE_TEMPLATE("without asserts, lanes that the processor has not are left t
 }
 #endif
 
-TEST_CASE("lanes count in what is quickest and still exact: words, or doubles; and in floats where a kernel says fast") {
+TEST_CASE("lanes count in what is quickest and still exact, words or doubles, and in floats where a kernel says fast") {
     using gnomon::fast;
     using gnomon::on_any::pair_filter;
     using gnomon::on_any::word_filter;
