@@ -1,4 +1,4 @@
-// What accuracy costs in time: every texel format through filter and receive, with its error beside its nanoseconds.
+// What accuracy costs in time: every texel format through filter and receive, exactly and fast, with its error beside its nanoseconds.
 //
 // Copying the same bytes is the floor, in the same run. Use --benchmark_enable_random_interleaving=true and --benchmark_repetitions=9, and
 // compare medians of cpu time within one run only. Counters: bytes (a texel), rmse and worst (intensity against the exact
@@ -16,7 +16,8 @@
 namespace {
 
 using namespace gnomon;
-using soft = gaussian<4>;
+using exact = gaussian<4>;
+using quick = fast<exact>;
 
 constexpr extent size{1024, 1024};
 constexpr float gap = 0.02f;
@@ -40,7 +41,7 @@ bool covers(const disc& d, int x, int y) { return (x - d.x) * (x - d.x) + (y - d
 
 texel_rect box_of(const disc& d) { return {d.x - d.radius, d.y - d.radius, d.x + d.radius + 1, d.y + d.radius + 1}; }
 
-template <typename Texel> void cast_scene(soft_shadow_map<Texel, soft>& map) {
+template <typename Texel, typename Kernel> void cast_scene(soft_shadow_map<Texel, Kernel>& map) {
     for (const disc& d : scene()) {
         const texel_rect box = box_of(d);
         for (int y = box.y0; y < box.y1; ++y)
@@ -52,21 +53,22 @@ template <typename Texel> void cast_scene(soft_shadow_map<Texel, soft>& map) {
 
 double exact_mask(const disc& d, int x, int y) {
     double sum = 0.0;
-    for (int j = -soft::radius; j <= soft::radius; ++j)
-        for (int i = -soft::radius; i <= soft::radius; ++i)
+    for (int j = -exact::radius; j <= exact::radius; ++j)
+        for (int i = -exact::radius; i <= exact::radius; ++i)
             if (covers(d, x + i, y + j))
-                sum += 1.0 * soft::weights[static_cast<std::size_t>(i + soft::radius)] *
-                       soft::weights[static_cast<std::size_t>(j + soft::radius)];
-    return sum / (1.0 * soft::total * soft::total);
+                sum += 1.0 * exact::weights[static_cast<std::size_t>(i + exact::radius)] *
+                       exact::weights[static_cast<std::size_t>(j + exact::radius)];
+    return sum / (1.0 * exact::total * exact::total);
 }
 
-template <typename Texel>
-void report_error(benchmark::State& state, soft_shadow_map<Texel, soft>& map, bias towards, const char* rmse, const char* worst) {
+template <typename Texel, typename Kernel>
+void report_error(benchmark::State& state, soft_shadow_map<Texel, Kernel>& map, bias towards, const char* rmse, const char* worst) {
     map.decision.caster = towards;
+    map.decision.caster.roundings = filter_roundings<Texel, Kernel>;
     double squares = 0.0, largest = 0.0;
     std::size_t count = 0;
     for (const disc& d : scene()) {
-        const texel_rect reach = grow(box_of(d), soft::radius);
+        const texel_rect reach = grow(box_of(d), exact::radius);
         for (int y = reach.y0; y < reach.y1; ++y)
             for (int x = reach.x0; x < reach.x1; ++x, ++count) {
                 const double error = static_cast<double>(map.shadow(x, y, d.depth + gap)) - exact_mask(d, x, y);
@@ -78,28 +80,28 @@ void report_error(benchmark::State& state, soft_shadow_map<Texel, soft>& map, bi
     state.counters[worst] = largest;
 }
 
-template <typename Texel> void report(benchmark::State& state, soft_shadow_map<Texel, soft>& map) {
+template <typename Texel, typename Kernel> void report(benchmark::State& state, soft_shadow_map<Texel, Kernel>& map) {
     report_error(state, map, towards_light, "rmse", "worst");
     report_error(state, map, towards_shadow, "rmse_shadow", "worst_shadow");
     state.counters["bytes"] = sizeof(Texel);
     state.SetItemsProcessed(state.iterations() * size.width * size.height);
 }
 
-template <typename Texel> void filter_whole(benchmark::State& state) {
-    soft_shadow_map<Texel, soft> map({size.width, size.height});
+template <typename Texel, typename Kernel> void filter_whole(benchmark::State& state) {
+    soft_shadow_map<Texel, Kernel> map({size.width, size.height});
     cast_scene(map);
     map.filter();
     image<Texel> result(size);
-    filter_scratch<Texel, soft> scratch(size.width);
+    filter_scratch<Texel, Kernel> scratch(size.width);
     for (auto _ : state) {
-        filter_region(map.casters(), result.view(), whole(size), scratch);
+        simd<>{}.filter_region(map.casters(), result.view(), whole(size), scratch);
         benchmark::ClobberMemory();
     }
     report(state, map);
 }
 
-template <typename Texel> void filter_tiles(benchmark::State& state) {
-    soft_shadow_map<Texel, soft> map({size.width, size.height});
+template <typename Texel, typename Kernel> void filter_tiles(benchmark::State& state) {
+    soft_shadow_map<Texel, Kernel> map({size.width, size.height});
     cast_scene(map);
     for (auto _ : state) {
         map.filter();
@@ -109,8 +111,8 @@ template <typename Texel> void filter_tiles(benchmark::State& state) {
     state.counters["tiles"] = map.tiles().tiles().count() / (1.0 * map.tiles().tiles().columns() * map.tiles().tiles().rows());
 }
 
-template <typename Texel> void receive_rows(benchmark::State& state) {
-    soft_shadow_map<Texel, soft> map({size.width, size.height});
+template <typename Texel, typename Kernel> void receive_rows(benchmark::State& state) {
+    soft_shadow_map<Texel, Kernel> map({size.width, size.height});
     cast_scene(map);
     map.filter();
     const std::vector<float> z(static_cast<std::size_t>(size.width), 0.5f);
@@ -140,9 +142,11 @@ template <typename Texel> void copy_floor(benchmark::State& state) {
 
 #define GNOMON_BENCH_FORMAT(texel)                                                                                                 \
     BENCHMARK_TEMPLATE(copy_floor, texel);                                                                                         \
-    BENCHMARK_TEMPLATE(filter_whole, texel);                                                                                       \
-    BENCHMARK_TEMPLATE(filter_tiles, texel);                                                                                       \
-    BENCHMARK_TEMPLATE(receive_rows, texel)
+    BENCHMARK_TEMPLATE(filter_whole, texel, exact);                                                                                \
+    BENCHMARK_TEMPLATE(filter_whole, texel, quick);                                                                                \
+    BENCHMARK_TEMPLATE(filter_tiles, texel, exact);                                                                                \
+    BENCHMARK_TEMPLATE(filter_tiles, texel, quick);                                                                                \
+    BENCHMARK_TEMPLATE(receive_rows, texel, exact)
 
 using paper8 = texel<unorm8, paper_depth_mask>;
 using paper16f = texel<half16, paper_depth_mask>;

@@ -1,7 +1,7 @@
 // gnomon: soft shadow maps. All that runs on a CPU without GLM. For meshes and lights add <gnomon/geometry/...>.
 #pragma once
 
-#include <gnomon/backend/scalar.hpp>
+#include <gnomon/backend/simd.hpp>
 #include <gnomon/filter/pyramid.hpp>
 #include <gnomon/grid/reference_grid.hpp>
 #include <gnomon/receive/cull.hpp>

@@ -1,7 +1,7 @@
 // gnomon: soft shadow maps. The facade: one map, frame after frame. Everything it does is a stage you can also take alone.
 #pragma once
 
-#include <gnomon/backend/scalar.hpp>
+#include <gnomon/backend/simd.hpp>
 #include <gnomon/receive/cull.hpp>
 
 #include <concepts>
@@ -29,7 +29,7 @@ concept draws_casters = requires(Draw& draw, image_view<Texel> into) {
 ///
 /// Casting and filtering cost what the casters cover, not what the map measures. Allocates in its constructor and never again.
 /// Between `filter` and the next `clear` any number of threads may read.
-template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Kernel> Backend = scalar> class soft_shadow_map {
+template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Kernel> Backend = simd<>> class soft_shadow_map {
   public:
     explicit soft_shadow_map(map_size size, Backend run = {})
         : run_(run), casters_({size.width, size.height}, Texel::clear()), soft_({size.width, size.height}, Texel::clear()),

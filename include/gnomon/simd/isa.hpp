@@ -64,6 +64,24 @@ concept simd_isa =
         { Isa::template repeat_last32<2>(i) } -> std::same_as<typename Isa::ints>;
         { Isa::template multiply_shift32<32>(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::settle(i) };
+        { Isa::either(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::subtract16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::subtract_to_zero16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::multiply_low16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::multiply_high16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_left16<8>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_right16<8>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::greater16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::upper_where_greater16(i, i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::any_equal16(i, i, i, i) } -> std::same_as<bool>;
+        { Isa::both(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::multiply32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::lesser32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::greater32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_left32<8>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_right32<8>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::gather32(memory, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::floor32(f) } -> std::same_as<typename Isa::ints>;
         { Isa::load(static_cast<const float*>(numbers)) } -> std::same_as<typename Isa::floats>;
         { Isa::store(numbers, f) };
         { Isa::repeat(number) } -> std::same_as<typename Isa::floats>;
@@ -79,6 +97,9 @@ concept simd_isa =
         { Isa::both(m, m) } -> std::same_as<typename Isa::masks>;
         { Isa::keep(m, f) } -> std::same_as<typename Isa::floats>;
         { Isa::template codes_of<unorm8, 2>(codes, 0) } -> std::same_as<typename Isa::floats>;
+        { Isa::numbers(i) } -> std::same_as<typename Isa::floats>;
+        { Isa::any(m) } -> std::same_as<bool>;
+        { Isa::template store_codes<unorm8>(codes, f) };
         { Isa::load(static_cast<const double*>(wides)) } -> std::same_as<typename Isa::doubles>;
         { Isa::store(wides, d) };
         { Isa::repeat(wide) } -> std::same_as<typename Isa::doubles>;
@@ -87,9 +108,17 @@ concept simd_isa =
         { Isa::divide(d, d) } -> std::same_as<typename Isa::doubles>;
         { Isa::add_product(d, d, d) } -> std::same_as<typename Isa::doubles>;
         { Isa::add_and_mask(d, bits, bits) } -> std::same_as<typename Isa::doubles>;
+        { Isa::subtract(d, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::smaller(d, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::larger(d, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::truncate(d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::greater_bits(d, d) } -> std::same_as<unsigned>;
+        { Isa::settle(d) };
         { Isa::template codes<unorm8>(codes) } -> std::same_as<typename Isa::doubles>;
         { Isa::template store_codes<float32>(numbers, f) };
         { Isa::template store_codes<unorm8>(codes, d) };
+        { Isa::store_floats(numbers, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::template cast_pairs<unorm8>(codes, unsigned{}, d) };
     };
 
 /// Lanes that sum four products of bytes at once. Optional: filters of bytes are quicker by them.
