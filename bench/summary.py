@@ -1,4 +1,4 @@
-"""summary.py FILTER.json RECEIVE.json [--raster RASTER.json] [--summary FILE.json]: what Google Benchmark measured, as ratios of medians of processor time.
+"""summary.py FILTER.json RECEIVE.json [--raster RASTER.json] [--flags FLAGS.json] [--summary FILE.json]: what Google Benchmark measured, as ratios of medians of processor time.
 
 The table goes to stdout; FILE.json is a flat object, name -> number. A name without a backend is that of simd<>, `.avx2` of
 simd<avx2>; of a filter, a name without `.exact` is the fast form."""
@@ -6,6 +6,7 @@ import argparse
 import json
 import math
 import pathlib
+import statistics
 import sys
 
 SIZES, TAPS = (256, 512, 1024, 2048, 4096), (3, 5, 7, 9, 13)
@@ -91,14 +92,31 @@ def rasters(path):
     return ratios
 
 
+def flags(time):
+    """What a build without flags takes longer than one with all of them, the median over its kernels; and what asking costs."""
+    ratios = {}
+    plain = [ours / time[f"o3_native/{kernel}"] for name, ours in time.items()
+             for what, kernel in [name.split("/", 1)] if what == "o2_plain" and f"o3_native/{kernel}" in time]
+    if plain:
+        ratios["flags.o2_plain.over_o3_native"] = statistics.median(plain)
+        ratios["flags.o2_plain.over_o3_native.worst"] = max(plain)
+    for name, asked in time.items():
+        what, kernel, *_ = name.split("/")
+        if what == "asked":
+            ratios[f"flags.asked.over_pinned.{kernel}.64"] = asked / time[f"pinned/{kernel}/64"]
+    return ratios
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("filter")
     parser.add_argument("receive")
     parser.add_argument("--raster")
+    parser.add_argument("--flags")
     parser.add_argument("--summary", type=pathlib.Path)
     given = parser.parse_args()
     ratios = filters(medians(given.filter)) | receives(medians(given.receive)) | (rasters(given.raster) if given.raster else {})
+    ratios |= flags(medians(given.flags)) if given.flags else {}
     for name, ratio in sorted(ratios.items()):
         print(f"{name:44}{ratio:8.2f}")
     if not any("opencv" in name for name in ratios):
