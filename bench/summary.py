@@ -1,4 +1,4 @@
-"""summary.py FILTER.json RECEIVE.json [--raster RASTER.json] [--flags FLAGS.json] [--summary FILE.json]: what Google Benchmark measured, as ratios of medians of processor time.
+"""summary.py FOLDER [--summary FILE.json]: what Google Benchmark measured, as ratios of medians of processor time.
 
 The table goes to stdout; FILE.json is a flat object, name -> number. A name without a backend is that of simd<>, `.avx2` of
 simd<avx2>; of a filter, a name without `.exact` is the fast form."""
@@ -17,9 +17,9 @@ def medians(path):
     return {run["run_name"]: run["cpu_time"] for run in runs if run.get("aggregate_name") == "median"}
 
 
-def filters(time):
+def filters(path):
     """Ratios of what was measured; nothing of what was not."""
-    ratios = {}
+    time, ratios = medians(path), {}
 
     def peer(of, taps, size):
         return min((time[name] for what in ("blur", "sep") if (name := f"{what}/{of}/k{taps}/{size}") in time), default=None)
@@ -56,8 +56,8 @@ def filters(time):
 WHERE = {"128": "l2", "1024": "l3", "4096": "dram"}  # where a map of that side lies on most machines
 
 
-def receives(time):
-    ratios = {}
+def receives(path):
+    time, ratios = medians(path), {}
     for name, of_lanes in time.items():
         what, of, size = name.split("/")
         if what not in ("simd", "simd.avx2", "simd.sse2"):
@@ -92,9 +92,49 @@ def rasters(path):
     return ratios
 
 
-def flags(time):
+def sparses(path):
+    """Time over what the same area costs in a map that is filtered whole; of frames, with all else that a frame does."""
+    time, ratios = medians(path), {}
+    area = {run["run_name"]: run["area"] for run in json.loads(pathlib.Path(path).read_text())["benchmarks"]
+            if "area" in run and run.get("aggregate_name") == "median"}
+    of = "/u8x2/k9/1024"
+    for suffix in ("", ".avx2"):
+        dense = time.get(f"dense{suffix}{of}")
+        if dense is None:
+            continue
+        for share in ("10pct", "50pct"):
+            ideal = dense * area[f"{share}{suffix}{of}"]
+            ratios[f"sparse.u8x2.{share}.over_ideal{suffix}"] = time[f"{share}{suffix}{of}"] / ideal
+            ratios[f"sparse.u8x2.{share}.frame_over_ideal{suffix}"] = time[f"frame.{share}{suffix}{of}"] / ideal
+        ratios[f"sparse.empty.of_dense{suffix}"] = time[f"empty{suffix}{of}"] / dense
+    return ratios
+
+
+def grids(path):
+    """Nanoseconds, not ratios: of the whole grid, and of each mark, question and clearing."""
+    runs = json.loads(pathlib.Path(path).read_text())["benchmarks"]
+    return {f"grid.{run['run_name']}.ns": run["cpu_time"] / run["calls"] for run in runs if run.get("aggregate_name") == "median"}
+
+
+def pipelines(path):
+    time, of = medians(path), "/u8x2/k9/1024"
+    floors = min(time[name + of] for name in ("copy", "stream") if name + of in time) + time["receive.copy" + of]
+    return {f"pipeline.u8x2.blur_receive.over_sum_of_floors{suffix}": time[f"both{suffix}{of}"] / floors
+            for suffix in ("", ".avx2") if f"both{suffix}{of}" in time}
+
+
+def threads(path):
+    """By the clock on the wall. Where there is one processor, no number tells anything."""
+    runs = json.loads(pathlib.Path(path).read_text())["benchmarks"]
+    time = {run["run_name"]: run["real_time"] for run in runs if run.get("aggregate_name") == "median"}
+    of = "u8x2/k9/1024/real_time"
+    return {("threads2.scaling" if what == "filter" else f"threads2.{what}.scaling"): time[f"{what}/1/{of}"] / time[f"{what}/2/{of}"]
+            for what in ("filter", "sparse", "receive")}
+
+
+def flags(path):
     """What a build without flags takes longer than one with all of them, the median over its kernels; and what asking costs."""
-    ratios = {}
+    time, ratios = medians(path), {}
     plain = [ours / time[f"o3_native/{kernel}"] for name, ours in time.items()
              for what, kernel in [name.split("/", 1)] if what == "o2_plain" and f"o3_native/{kernel}" in time]
     if plain:
@@ -107,16 +147,19 @@ def flags(time):
     return ratios
 
 
+MEASURED = {"filter": filters, "receive": receives, "sparse": sparses, "grid": grids, "pipeline": pipelines, "threads": threads,
+            "raster": rasters, "flags": flags}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("filter")
-    parser.add_argument("receive")
-    parser.add_argument("--raster")
-    parser.add_argument("--flags")
+    parser.add_argument("folder", type=pathlib.Path, help="where bench/run left NAME.json of each bench")
     parser.add_argument("--summary", type=pathlib.Path)
     given = parser.parse_args()
-    ratios = filters(medians(given.filter)) | receives(medians(given.receive)) | (rasters(given.raster) if given.raster else {})
-    ratios |= flags(medians(given.flags)) if given.flags else {}
+    ratios = {}
+    for name, ratios_of in MEASURED.items():
+        if (path := given.folder / f"{name}.json").exists():
+            ratios |= ratios_of(path)
     for name, ratio in sorted(ratios.items()):
         print(f"{name:44}{ratio:8.2f}")
     if not any("opencv" in name for name in ratios):

@@ -1,6 +1,7 @@
 // gnomon: soft shadow maps. The facade: one map, frame after frame. Everything it does is a stage you can also take alone.
 #pragma once
 
+#include <gnomon/backend/executor.hpp>
 #include <gnomon/backend/simd.hpp>
 #include <gnomon/receive/cull.hpp>
 
@@ -13,6 +14,7 @@ struct map_size {
     int width = 0;
     int height = 0;
     int tile = 32;
+    int bands = 16; ///< jobs that filter(executor) hands out at most; each has a line of scratch
 };
 
 /// What draws casters: a callable that writes into the image it is given and returns what it touched, `texels` and `depth`.
@@ -33,7 +35,7 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
   public:
     explicit soft_shadow_map(map_size size, Backend run = {})
         : run_(run), casters_({size.width, size.height}, Texel::clear()), soft_({size.width, size.height}, Texel::clear()),
-          tiles_({size.width, size.height}, size.tile), filtered_(tiles_.tiles()), scratch_(size.width) {}
+          tiles_({size.width, size.height}, size.tile), filtered_(tiles_.tiles()), scratch_(size.width, size.bands) {}
 
     /// How `shadow` and `receive` decide; no false shadow unless you say otherwise. It knows how often the filter rounds.
     rule decision{.caster = {.roundings = filter_roundings<Texel, Kernel>},
@@ -47,7 +49,7 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
 
     /// Begins a frame: forgets every caster. The filtered map stays readable until the next `filter`.
     void clear() noexcept {
-        clear_tiles(casters_.view(), tiles_.tiles());
+        clear_casters(casters_.view(), tiles_.tiles());
         tiles_.clear();
     }
 
@@ -89,8 +91,13 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
 
     /// Blurs what was cast into the map that `shadow` reads.
     void filter() noexcept {
-        clear_tiles(soft_.view(), filtered_);
-        gnomon::filter(run_, casters_.view(), soft_.view(), tiles_, scratch_);
+        clear_what_is_left<Kernel>(soft_.view(), filtered_, tiles_.tiles());
+        gnomon::filter(run_, casters_.view(), soft_.view(), tiles_, scratch_[0]);
+        filtered_ = tiles_.tiles();
+    }
+    /// The same as jobs of an executor, on(count, job); see backend/executor.hpp.
+    template <typename On> void filter(On&& on) {
+        refilter(run_, casters_.view(), soft_.view(), filtered_, tiles_.tiles(), scratch_, on);
         filtered_ = tiles_.tiles();
     }
 
@@ -120,6 +127,11 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
         if (y >= 0 && y < size().height) return run_.receive(soft().row_span(y), z, intensity, decision);
         for (int i = 0; i < intensity.size(); ++i) intensity[i] = 0.0f;
     }
+    /// An image of receivers, one to one on the texels of the map, as jobs of an executor; what both have is written.
+    template <typename Z, typename Intensity, typename On>
+    void receive(image_view<Z> z, image_view<Intensity> intensity, On&& on) const {
+        gnomon::receive(run_, soft(), z, intensity, decision, on);
+    }
 
     /// Could a receiver with these texels and depths be shadowed at all? If not, draw it without shadow code.
     [[nodiscard]] bool reaches(texel_rect footprint, depth_interval depth = {}) const noexcept {
@@ -142,7 +154,7 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
     image<Texel> soft_;
     depth_tiles tiles_;
     tile_grid filtered_;
-    filter_scratch<Texel, Kernel> scratch_;
+    band_scratch<Texel, Kernel> scratch_;
 };
 
 } // namespace gnomon::inline GNOMON_BUILD

@@ -120,8 +120,8 @@ TEST_CASE_TEMPLATE("the scalar backend is the free functions", Texel, rg8, gnomo
     CHECK(wrong == 0);
 }
 
-TEST_CASE(
-    "filter hands its backend disjoint regions that cover the marked tiles, and the whole map if the guard band is too narrow") {
+TEST_CASE("filter hands its backend disjoint regions that hold what its radius reaches, whatever the guard band, and the whole map "
+          "if that is most of it") {
     counting::counts seen;
     counting run;
     run.seen = &seen;
@@ -137,6 +137,10 @@ TEST_CASE(
     CHECK(seen.regions == std::vector<texel_rect>{{0, 0, 16, 16}, {32, 32, 64, 48}});
     seen.regions.clear();
     tiles.mark({4, 4, 8, 8}, 2);
+    gnomon::filter(run, casters.view(), soft.view(), tiles, scratch);
+    CHECK(seen.regions == std::vector<texel_rect>{{0, 0, 19, 19}, {29, 29, 64, 48}});
+    seen.regions.clear();
+    tiles.mark({0, 4, 64, 40}, 3);
     gnomon::filter(run, casters.view(), soft.view(), tiles, scratch);
     CHECK(seen.regions == std::vector<texel_rect>{{0, 0, 64, 48}});
 }

@@ -54,10 +54,10 @@ TEST_CASE_TEMPLATE("for each of the 512 patterns of 3 x 3 tiles, sparse equals d
     });
 }
 
-TEST_CASE_TEMPLATE("any guard band gives the dense result: too wide costs time, too narrow filters the whole map", Texel,
-                   gnomon::rg8, gnomon::rgba32f) {
+TEST_CASE_TEMPLATE("any guard band gives the dense result: a filter grows what was marked by its own radius", Texel, gnomon::rg8,
+                   gnomon::rgba32f) {
     dice roll(102);
-    int whole_maps = 0, parts = 0;
+    int whole_maps = 0, parts = 0, narrow = 0;
     for (int round = 0; round < 150; ++round) {
         const extent size{roll(1, 70), roll(1, 60)};
         image<Texel> casters(size, Texel::clear());
@@ -70,14 +70,16 @@ TEST_CASE_TEMPLATE("any guard band gives the dense result: too wide costs time, 
             tile_grid tiles(size, roll(1, 20));
             for (const texel_rect r : drawn) tiles.mark(clip(r, size), roll(0, 2) * Kernel::radius + roll(-1, 2));
             CHECK(test::differences(sparse<Kernel>(casters, tiles), dense<Kernel>(casters)) == 0);
-            if (!tiles.empty()) ++(tiles.guard() < Kernel::radius ? whole_maps : parts);
+            if (!tiles.empty()) ++(gnomon::regions_to_filter<Kernel>(tiles).all() ? whole_maps : parts);
+            narrow += !tiles.empty() && tiles.guard() < Kernel::radius;
         });
     }
     CHECK(whole_maps > 50);
     CHECK(parts > 50);
+    CHECK(narrow > 50);
 }
 
-TEST_CASE("what has to be written is the marked tiles, or the whole map if they were marked too narrowly, or nothing") {
+TEST_CASE("what has to be written is what lies within the radius of the casters' tiles, or nothing") {
     const auto regions = [](const tile_grid& tiles) {
         std::vector<texel_rect> found;
         gnomon::for_each_region_to_filter<binomial<3>>(tiles, [&](texel_rect r) { found.push_back(r); });
@@ -86,11 +88,29 @@ TEST_CASE("what has to be written is the marked tiles, or the whole map if they 
     tile_grid tiles({50, 30}, 10);
     CHECK(regions(tiles).empty());
     tiles.mark({14, 14, 16, 16}, 3);
-    CHECK(regions(tiles) == std::vector<texel_rect>{{10, 10, 20, 20}});
-    tiles.mark({44, 25, 47, 27}, 4);
-    CHECK(regions(tiles) == std::vector<texel_rect>{{10, 10, 20, 20}, {40, 20, 50, 30}}); // 40 is the first column of 44 - 4
+    CHECK(regions(tiles) == std::vector<texel_rect>{{10, 10, 20, 20}}); // no guard band left the tile
+    tiles.mark({42, 25, 47, 27}, 4);
+    CHECK(regions(tiles) == std::vector<texel_rect>{{10, 10, 20, 20}, {37, 20, 50, 30}}); // 38 is the first column of 42 - 4
     tiles.mark({15, 15, 16, 16}, 2);
-    CHECK(regions(tiles) == std::vector<texel_rect>{{0, 0, 50, 30}});
+    CHECK(regions(tiles) == std::vector<texel_rect>{{7, 7, 23, 23}, {37, 17, 50, 30}});
+}
+
+TEST_CASE("a map of which so much has to be written that the whole is cheaper is filtered whole, from the stated share on") {
+    constexpr int side = 200, percent = gnomon::dense_from_percent;
+    const auto of_rows = [](int rows) { // marks that a filter without radius has to write
+        tile_grid tiles({side, side}, 1);
+        tiles.mark({0, 0, side, rows});
+        return tiles;
+    };
+    static_assert(side * percent % 100 == 0);
+    CHECK(gnomon::regions_to_filter<box<0>>(of_rows(side * percent / 100)).all());
+    CHECK_FALSE(gnomon::regions_to_filter<box<0>>(of_rows(side * percent / 100 - 1)).all());
+    tile_grid scattered({side, side}, 10); // could be everything, by the number of tiles, and is not
+    for (int y = 0; y < 20; ++y)
+        for (int x = y % 2; x < 20; x += 2) scattered.mark({10 * x + 5, 10 * y + 5, 10 * x + 6, 10 * y + 6}, 4);
+    CHECK_FALSE(gnomon::regions_to_filter<box<4>>(scattered).all());
+    CHECK(gnomon::regions_to_filter<box<5>>(scattered).all());
+    CHECK_FALSE(gnomon::regions_to_filter<box<5>>(tile_grid{}).all());
 }
 
 TEST_CASE("clearing the marked tiles clears every texel of them and no other") {
@@ -105,6 +125,59 @@ TEST_CASE("clearing the marked tiles clears every texel of them and no other") {
         int wrong = 0;
         test::for_each_texel(whole(size), [&](int x, int y) {
             wrong += !(cleared(x, y) == (tiles.test(x / tiles.tile(), y / tiles.tile()) ? gnomon::rgb8::clear() : full(x, y)));
+        });
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("clearing casters clears the tiles that they were marked in, and no guard band") {
+    const image<gnomon::rg16> full({40, 30}, gnomon::rg16::caster(0.5f));
+    image<gnomon::rg16> cleared = full;
+    tile_grid tiles(full.size(), 10);
+    tiles.mark({12, 12, 19, 19}, 9);
+    gnomon::clear_casters(cleared.view(), tiles);
+    int wrong = 0;
+    test::for_each_texel(whole(full.size()), [&](int x, int y) {
+        wrong += !(cleared(x, y) == (x / 10 == 1 && y / 10 == 1 ? gnomon::rg16::clear() : full(x, y)));
+    });
+    CHECK(wrong == 0);
+}
+
+TEST_CASE_TEMPLATE("the next frame may be filtered over the last one once what is left of that is cleared", Texel, gnomon::rg8,
+                   test::paper16) {
+    dice roll(104);
+    test::for_each_kernel(some_kernels{}, [&]<typename Kernel>() {
+        constexpr extent size{70, 50};
+        filter_scratch<Texel, Kernel> scratch(size.width);
+        image<Texel> soft(size, Texel::clear());
+        tile_grid before(size, 8);
+        int wrong = 0;
+        for (int frame = 0; frame < 40; ++frame) {
+            image<Texel> casters(size, Texel::clear());
+            tile_grid now(size, 8);
+            for (int n = roll(0, 3); n > 0; --n) {
+                const texel_rect r = roll.rect(size, 6);
+                casters.view().fill(r, test::any_caster<Texel>(roll));
+                now.mark(r, Kernel::radius);
+            }
+            gnomon::clear_what_is_left<Kernel>(soft.view(), before, now);
+            gnomon::filter(gnomon::scalar{}, casters.view(), soft.view(), now, scratch);
+            wrong += test::differences(soft, dense<Kernel>(casters)) != 0;
+            before = now;
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("a region is cleared where it lies on the map, row by row, and no texel beside it") {
+    for (const texel_rect r : {texel_rect{-5, -5, 3, 2}, texel_rect{4, 4, 9, 5}, texel_rect{3, 2, 99, 99}, texel_rect{5, 5, 5, 9},
+                               texel_rect{50, 50, 60, 60}}) {
+        const image<gnomon::rgb16f> full({10, 8}, gnomon::rgb16f::caster(0.5f));
+        image<gnomon::rgb16f> cleared = full;
+        gnomon::clear_region(cleared.view(), r);
+        int wrong = 0;
+        test::for_each_texel(whole(full.size()), [&](int x, int y) {
+            wrong += !(cleared(x, y) == (r.contains(x, y) ? gnomon::rgb16f::clear() : full(x, y)));
         });
         CHECK(wrong == 0);
     }

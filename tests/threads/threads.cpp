@@ -1,5 +1,6 @@
 // What several threads may do at once: read what no one writes, and write what no one else touches. Built with the thread sanitizer
 // these are race-free; in every build they have the bits of one thread.
+#include <gnomon/backend/simd.hpp>
 #include <gnomon/grid/reference_grid.hpp>
 #include <gnomon/receive/lightmap.hpp>
 #include <gnomon/soft_shadow_map.hpp>
@@ -10,6 +11,7 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <thread>
 #include <vector>
 
@@ -119,4 +121,64 @@ TEST_CASE("threads may cast into rows of their own of one image") {
     draw(alone, 0, size.height);
     at_once(4, [&](int i) { draw(together, part(i, 4, size.height), part(i + 1, 4, size.height)); });
     CHECK(test::differences(alone, together) == 0);
+}
+
+namespace {
+/// An executor that starts its threads anew: each takes the next job until there is none.
+struct on_threads {
+    int threads;
+    template <typename Job> void operator()(int count, const Job& job) const {
+        std::atomic<int> next{0};
+        at_once(threads, [&](int) {
+            for (int i = next++; i < count; i = next++) job(i);
+        });
+    }
+};
+constexpr int thread_counts[] = {1, 2, 3, 7};
+} // namespace
+
+TEST_CASE_TEMPLATE("frames that are filtered on any number of threads, in any number of bands, have the bits of one thread",
+                   Backend, gnomon::scalar, gnomon::simd<>) {
+    using kernel = gnomon::binomial<4>;
+    constexpr extent large{460, 301};
+    for (const int threads : thread_counts)
+        for (const int bands : {1, 5, 16}) {
+            test::dice roll(23);
+            gnomon::soft_shadow_map<gnomon::rg8, kernel, Backend> map({large.width, large.height, 16, bands}),
+                alone({large.width, large.height, 16, bands});
+            for (int frame = 0; frame < 6; ++frame) {
+                map.clear();
+                alone.clear();
+                for (int n = frame == 4 ? 60 : roll(0, 6); n > 0; --n) { // one frame is filtered whole
+                    const texel_rect r = roll.rect(large, 20);
+                    const float s = roll.unit();
+                    map.cast(r, s);
+                    alone.cast(r, s);
+                }
+                map.filter(on_threads{threads});
+                alone.filter();
+                CHECK(test::differences<gnomon::rg8>(map.soft(), alone.soft(), whole(large)) == 0);
+            }
+        }
+}
+
+TEST_CASE("a whole map filtered, and an image of receivers decided, on any number of threads have the bits of one") {
+    using kernel = gnomon::gaussian<3>;
+    constexpr extent large{300, 333};
+    test::dice roll(24);
+    const image<gnomon::rg16> from = test::noise<gnomon::rg16>(roll, large, 4);
+    const image<gnomon::rg16> expected = test::dense<kernel>(from);
+    const image<float> z(large, 0.5f);
+    image<float> lit(large);
+    gnomon::receive(expected.view(), z.view(), lit.view());
+    for (const int threads : thread_counts)
+        for (const int bands : {2, 7, 16}) {
+            image<gnomon::rg16> to(large, gnomon::rg16::clear());
+            image<float> made(large);
+            gnomon::band_scratch<gnomon::rg16, kernel> scratch(large.width, bands);
+            gnomon::filter(gnomon::simd<>{}, from.view(), to.view(), whole(large), scratch, on_threads{threads});
+            gnomon::receive(gnomon::simd<>{}, to.view(), z.view(), made.view(), {}, on_threads{threads});
+            CHECK(test::differences(to, expected) == 0);
+            CHECK(test::differences(made, lit) == 0);
+        }
 }

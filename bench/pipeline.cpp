@@ -1,0 +1,104 @@
+// What a frame costs from casters to light: the whole map filtered, and a receiver on each texel decided, against moving the bytes.
+//
+// Names are WHAT/u8x2/k9/1024, and all run in one process:
+//     both             filter, then receive; with .avx2 behind it by simd<avx2>
+//     copy, stream     the filter's floor: memcpy of the map, and reading it with stores that pass the caches by
+//     receive.copy     the receivers' floor: a memcpy that moves as many bytes
+#include <gnomon/backend/simd.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <vector>
+#if GNOMON_X86
+#include <emmintrin.h>
+#endif
+
+namespace {
+using namespace gnomon;
+
+using texel = rg8;
+using kernel_9 = eight_bit<gaussian<4>>;
+using depth_of_receiver = float;
+using light = float;
+constexpr int side = 1024;
+constexpr extent size{side, side};
+constexpr std::size_t texels = std::size_t{side} * side;
+
+struct alignas(64) line {
+    unsigned char byte[64];
+};
+
+template <typename F> void add(const std::string& what, F&& work) {
+    benchmark::RegisterBenchmark((what + "/u8x2/k9/1024").c_str(), work);
+}
+
+template <typename Isa> void add_pipeline(const char* what) {
+    add(what, [](benchmark::State& state) {
+        image<texel> casters(size, texel::clear()), soft(size, texel::clear());
+        image<depth_of_receiver> z(size);
+        image<light> intensity(size);
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                if ((x / 32 + y / 32) % 2 == 0) casters(x, y) = texel::caster(static_cast<float>(x) / side);
+                z(x, y) = static_cast<depth_of_receiver>(y) / side;
+            }
+        filter_scratch<texel, kernel_9> scratch(side);
+        for ([[maybe_unused]] auto _ : state) {
+            simd<Isa>{}.filter_region(image_view<const texel>(casters.view()), soft.view(), whole(size), scratch);
+            for (int y = 0; y < side; ++y)
+                receive(simd<Isa>{}, soft.view().row_span(y), z.view().row_span(y), intensity.view().row_span(y));
+            benchmark::ClobberMemory();
+        }
+    });
+}
+
+/// Copies so many bytes.
+void add_copy(const char* what, std::size_t bytes) {
+    add(what, [bytes](benchmark::State& state) {
+        const std::vector<line> from(bytes / sizeof(line), line{{1}});
+        std::vector<line> to(from.size());
+        for ([[maybe_unused]] auto _ : state) {
+            std::memcpy(to.data(), from.data(), bytes);
+            benchmark::ClobberMemory();
+        }
+    });
+}
+
+#if GNOMON_X86
+void add_avx2() {
+    if (best_lanes() >= cpu_level::avx2) add_pipeline<avx2>("both.avx2");
+}
+void add_stream() {
+    add("stream", [](benchmark::State& state) {
+        const std::vector<line> from(texels * sizeof(texel) / sizeof(line), line{{1}});
+        std::vector<line> to(from.size());
+        for ([[maybe_unused]] auto _ : state) {
+            const auto* in = reinterpret_cast<const __m128i*>(from.data());
+            auto* out = reinterpret_cast<__m128i*>(to.data());
+            for (std::size_t i = 0; i < texels * sizeof(texel) / 16; ++i) _mm_stream_si128(out + i, _mm_load_si128(in + i));
+            benchmark::ClobberMemory();
+        }
+    });
+}
+#else
+void add_avx2() {}
+void add_stream() {}
+#endif
+void add_all() {
+    add_pipeline<best_isa>("both");
+    add_avx2();
+    add_copy("copy", texels * sizeof(texel));
+    add_stream();
+    add_copy("receive.copy", texels * (sizeof(texel) + sizeof(depth_of_receiver) + sizeof(light)) / 2);
+}
+} // namespace
+
+int main(int count, char** words) {
+    add_all();
+    benchmark::Initialize(&count, words);
+    if (benchmark::ReportUnrecognizedArguments(count, words)) return 1;
+    benchmark::RunSpecifiedBenchmarks();
+}

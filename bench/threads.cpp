@@ -1,0 +1,66 @@
+// How much faster two threads are: the same work on one and on two of the example's pool, by the clock on the wall.
+//
+// Names are WHAT/THREADS/u8x2/k9/1024/real_time; WHAT is
+//     filter, sparse   the whole map, and half of it in tiles
+//     receive          an image of receivers, one to one
+#include "../examples/jthread_pool.hpp"
+
+#include <gnomon/backend/executor.hpp>
+#include <gnomon/backend/simd.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+namespace {
+using namespace gnomon;
+
+using texel = rg8;
+using kernel_9 = eight_bit<gaussian<4>>;
+constexpr int side = 1024, tile = 32;
+constexpr extent size{side, side};
+
+struct scene {
+    image<texel> casters{size, texel::clear()};
+    image<texel> soft{size, texel::clear()};
+    image<float> z{size, 0.5f};
+    image<float> intensity{size};
+    tile_grid tiles{size, tile};
+    band_scratch<texel, kernel_9> scratch{side};
+
+    scene() {
+        for (int y = 0; y < side; y += 4 * tile)
+            for (int x = 0; x < side; x += 4 * tile) {
+                const texel_rect r{x, y, x + 3 * tile, y + 2 * tile + tile / 2};
+                casters.view().fill(r, texel::caster(static_cast<float>(x) / side));
+                tiles.mark(r, kernel_9::radius);
+            }
+    }
+};
+
+template <typename Work> void add(const char* what, Work work) {
+    for (const unsigned threads : {1u, 2u}) {
+        const std::string name = std::string(what) + "/" + std::to_string(threads) + "/u8x2/k9/1024";
+        benchmark::RegisterBenchmark(name.c_str(), [work, threads](benchmark::State& state) {
+            scene s;
+            jthread_pool pool(threads);
+            for ([[maybe_unused]] auto _ : state) {
+                work(s, pool);
+                benchmark::ClobberMemory();
+            }
+        })->UseRealTime();
+    }
+}
+} // namespace
+
+int main(int count, char** words) {
+    add("filter",
+        [](scene& s, jthread_pool& pool) { filter(simd<>{}, s.casters.view(), s.soft.view(), whole(size), s.scratch, pool); });
+    add("sparse",
+        [](scene& s, jthread_pool& pool) { filter(simd<>{}, s.casters.view(), s.soft.view(), s.tiles, s.scratch, pool); });
+    add("receive",
+        [](scene& s, jthread_pool& pool) { receive(simd<>{}, s.soft.view(), s.z.view(), s.intensity.view(), {}, pool); });
+    benchmark::Initialize(&count, words);
+    if (benchmark::ReportUnrecognizedArguments(count, words)) return 1;
+    benchmark::RunSpecifiedBenchmarks();
+}

@@ -1,0 +1,199 @@
+// Executors: what models one, what jobs they are given, and that no result depends on them. tests/threads has them on threads.
+#include <gnomon/backend/executor.hpp>
+#include <gnomon/backend/simd.hpp>
+
+#include "../support/bits.hpp"
+#include "../support/filtering.hpp"
+#include "../support/formats.hpp"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <vector>
+
+namespace {
+using gnomon::band_scratch;
+using gnomon::executor;
+using gnomon::extent;
+using gnomon::gaussian;
+using gnomon::image;
+using gnomon::rg8;
+using gnomon::texel_rect;
+using gnomon::tile_grid;
+using test::dice;
+
+/// Calls the last job first, and remembers how many there were.
+struct backwards {
+    int* count;
+    template <typename Job> void operator()(int jobs, const Job& job) const {
+        *count = jobs;
+        for (int i = jobs; i-- > 0;) job(i);
+    }
+};
+
+/// A backend that also counts how often each texel is written.
+struct painter : gnomon::scalar {
+    image<int>* times = nullptr;
+    template <typename Texel, typename Kernel>
+    void filter_region(gnomon::image_view<const Texel> from, gnomon::image_view<Texel> to, texel_rect region,
+                       gnomon::filter_scratch<Texel, Kernel>& scratch) const noexcept {
+        test::for_each_texel(region, [&](int x, int y) { ++(*times)(x, y); });
+        scalar::filter_region(from, to, region, scratch);
+    }
+};
+
+constexpr extent size{300, 261};
+
+/// A map with a few casters in it, and their marks.
+template <typename Texel> struct scene {
+    image<Texel> casters{size, Texel::clear()};
+    tile_grid tiles{size, 16};
+
+    scene(dice& roll, int count, int radius) {
+        for (; count > 0; --count) {
+            const texel_rect r = roll.rect(size, 10);
+            casters.view().fill(r, test::any_caster<Texel>(roll));
+            tiles.mark(r, radius);
+        }
+    }
+};
+} // namespace
+
+namespace near_miss {
+struct no_count {
+    void operator()(const std::function<void(int)>& job) const;
+};
+struct no_job {
+    void operator()(int count) const;
+};
+struct job_without_number {
+    void operator()(int count, void (*job)()) const;
+};
+struct by_pointer {
+    void operator()(int count, void (*job)(int)) const;
+};
+} // namespace near_miss
+
+static_assert(executor<gnomon::sequential> && executor<const gnomon::sequential&> && executor<backwards>);
+static_assert(executor<std::function<void(int, std::function<void(int)>)>>); // what a host may have already
+static_assert(!executor<near_miss::no_count> && !executor<near_miss::no_job> && !executor<near_miss::job_without_number> &&
+              !executor<near_miss::by_pointer> && !executor<int>);
+
+TEST_CASE("bands of rows are disjoint, in order, and make up all rows; there are no more than asked for, and none without rows") {
+    for (const int rows : {0, 1, 2, 63, 64, 65, 1000})
+        for (const int most : {-1, 0, 1, 2, 3, 7, 64}) {
+            int next = 0, calls = 0, empty = 0, unordered = 0;
+            gnomon::in_bands(
+                gnomon::sequential{}, rows,
+                [&](int y0, int y1) {
+                    unordered += y0 != next;
+                    empty += y0 >= y1;
+                    next = y1;
+                    ++calls;
+                },
+                most);
+            CHECK(next == rows);
+            CHECK(empty + unordered == 0);
+            CHECK(calls <= (most < 1 ? 1 : most));
+        }
+    int count = 0;
+    gnomon::in_bands(backwards{&count}, 1000, [](int, int) {});
+    CHECK(count == 64);
+}
+
+TEST_CASE_TEMPLATE("filtered in any number of bands, in any order, a map has the bits of one filtered at once", Texel, rg8,
+                   gnomon::rgba16, gnomon::rg32f, test::paper8) {
+    dice roll(511);
+    using kernel = gaussian<4>;
+    for (const int casters : {0, 1, 9, 40}) {
+        const scene<Texel> s(roll, casters, kernel::radius);
+        const image<Texel> expected = test::dense<kernel>(s.casters);
+        for (const int bands : {-1, 1, 2, 3, 5, 16, 61}) {
+            int count = 0;
+            band_scratch<Texel, kernel> scratch(size.width, bands);
+            image<Texel> sparse(size, Texel::clear()), whole_map(size, Texel::caster(0.25f)), in_lanes(size, Texel::clear());
+            gnomon::filter(gnomon::scalar{}, s.casters.view(), sparse.view(), s.tiles, scratch, backwards{&count});
+            CHECK(count <= scratch.size());
+            gnomon::filter(gnomon::scalar{}, s.casters.view(), whole_map.view(), whole(size), scratch, backwards{&count});
+            CHECK(count == gnomon::lesser(scratch.size(), 300 * 261 / (1 << 14) + 1));
+            gnomon::filter(gnomon::simd<>{}, s.casters.view(), in_lanes.view(), s.tiles, scratch, backwards{&count});
+            CHECK(test::differences(sparse, expected) == 0);
+            CHECK(test::differences(whole_map, expected) == 0);
+            CHECK(test::differences(in_lanes, expected) == 0);
+        }
+    }
+}
+
+TEST_CASE("each texel that has to be written is written by one job, once") {
+    dice roll(512);
+    using kernel = gnomon::binomial<3>;
+    for (int round = 0; round < 40; ++round) {
+        const scene<rg8> s(roll, roll(1, 12), kernel::radius);
+        image<int> times(size, 0), expected(size, 0);
+        painter run;
+        run.times = &times;
+        image<rg8> soft(size, rg8::clear());
+        int count = 0;
+        band_scratch<rg8, kernel> scratch(size.width, roll(1, 9));
+        gnomon::filter(run, s.casters.view(), soft.view(), s.tiles, scratch, backwards{&count});
+        gnomon::for_each_region_to_filter<kernel>(s.tiles, [&](texel_rect r) { expected.view().fill(r, 1); });
+        CHECK(test::differences(times, expected) == 0);
+    }
+}
+
+TEST_CASE("bands are shared out by area: none takes more than its part and a few rows") {
+    dice roll(513);
+    for (int round = 0; round < 40; ++round) {
+        std::vector<texel_rect> regions;
+        std::int64_t all = 0;
+        for (int n = roll(1, 12); n > 0; --n) {
+            const int x = roll(0, 900), y = roll(0, 900);
+            regions.push_back({x, y, x + roll(1, 900), y + roll(1, 900)});
+            all += std::int64_t{regions.back().width()} * regions.back().height();
+        }
+        const auto walk = [&regions](auto&& f) {
+            for (const texel_rect r : regions) f(r);
+        };
+        const gnomon::detail::band_cut cut(walk, 7);
+        std::int64_t sum = 0, most = 0;
+        for (int band = 0; band < cut.size(); ++band) {
+            std::int64_t mine = 0;
+            cut.for_each(band, [&](texel_rect r) { mine += std::int64_t{r.width()} * r.height(); });
+            sum += mine;
+            most = gnomon::greater(most, mine);
+        }
+        CHECK(sum == all);
+        CHECK(most <= all / cut.size() + 2 * 8 * 900);
+    }
+}
+
+TEST_CASE_TEMPLATE("frames that are filtered over the last one by an executor are those of a map made from scratch", Texel, rg8,
+                   gnomon::rgb16f) {
+    dice roll(514);
+    using kernel = gnomon::eight_bit<gaussian<5>>;
+    int count = 0, most = 0;
+    tile_grid before(size, 16);
+    image<Texel> soft(size, Texel::clear());
+    band_scratch<Texel, kernel> scratch(size.width, 5);
+    for (int frame = 0; frame < 30; ++frame) {
+        const scene<Texel> s(roll, frame % 10 == 9 ? 60 : roll(0, 5), kernel::radius);
+        gnomon::refilter(gnomon::simd<>{}, s.casters.view(), soft.view(), before, s.tiles, scratch, backwards{&count});
+        CHECK(test::differences(soft, test::dense<kernel>(s.casters)) == 0);
+        most = gnomon::greater(most, count);
+        before = s.tiles;
+    }
+    CHECK(most == 5);
+}
+
+TEST_CASE("an image of receivers in bands is decided as row by row, where all three images are") {
+    dice roll(515);
+    const image<rg8> soft = test::noise<rg8>(roll, {90, 70}, 2);
+    image<float> z({80, 71}), made({85, 66}, -1.0f), expected({85, 66}, -1.0f);
+    test::for_each_texel(whole(z.size()), [&](int x, int y) { z(x, y) = roll.unit(); });
+    const gnomon::rule distant{.caster = {.depth = 0.25f}};
+    int count = 0;
+    gnomon::receive(gnomon::simd<>{}, soft.view(), z.view(), made.view(), distant, backwards{&count});
+    gnomon::receive(soft.view(), z.view(), expected.view(), distant);
+    CHECK(test::differences(made, expected) == 0);
+    CHECK(count == 64);
+}
