@@ -143,7 +143,7 @@ def flags(path):
     for name, asked in time.items():
         what, kernel, *_ = name.split("/")
         if what == "asked":
-            ratios[f"flags.asked.over_pinned.{kernel}.64"] = asked / time[f"pinned/{kernel}/64"]
+            ratios[f"flags.asked.over_unasked.{kernel}.64"] = asked / time[f"unasked/{kernel}/64"]
     return ratios
 
 
