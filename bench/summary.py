@@ -6,6 +6,7 @@ import argparse
 import json
 import math
 import pathlib
+import statistics
 import sys
 
 SIZES, TAPS = (256, 512, 1024, 2048, 4096), (3, 5, 7, 9, 13)
@@ -131,8 +132,23 @@ def threads(path):
             for what in ("filter", "sparse", "receive")}
 
 
+def flags(path):
+    """What a build without flags takes longer than one with all of them, the median over its kernels; and what asking costs."""
+    time, ratios = medians(path), {}
+    plain = [ours / time[f"o3_native/{kernel}"] for name, ours in time.items()
+             for what, kernel in [name.split("/", 1)] if what == "o2_plain" and f"o3_native/{kernel}" in time]
+    if plain:
+        ratios["flags.o2_plain.over_o3_native"] = statistics.median(plain)
+        ratios["flags.o2_plain.over_o3_native.worst"] = max(plain)
+    for name, asked in time.items():
+        what, kernel, *_ = name.split("/")
+        if what == "asked":
+            ratios[f"flags.asked.over_unasked.{kernel}.64"] = asked / time[f"unasked/{kernel}/64"]
+    return ratios
+
+
 MEASURED = {"filter": filters, "receive": receives, "sparse": sparses, "grid": grids, "pipeline": pipelines, "threads": threads,
-            "raster": rasters}
+            "raster": rasters, "flags": flags}
 
 
 def main():

@@ -6,6 +6,7 @@
 // crosses from one to the other is an undefined reference when the program is linked; pass plain numbers and pointers there.
 //
 // Named is what x86 and ARM compilers use by themselves once they are allowed to. Flags that no macro tells of are not.
+// Who declares a type of gnomon's ahead opens the same namespace.
 #pragma once
 
 // clang-format off

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -101,6 +102,12 @@ TEST_CASE("simd<> goes by the lanes of the processor's level, and every level be
         const int bytes = gnomon::detail::with_lanes(level, []<typename Isa>() { return Isa::bytes; });
         CHECK(bytes == (level == gnomon::cpu_level::sse2 ? 16 : level == gnomon::cpu_level::avx2 ? 32 : 64));
     }
+}
+#elif GNOMON_NEON || GNOMON_WASM
+TEST_CASE("where the build has lanes, simd<> goes by them without asking the processor") {
+    const bool neon = GNOMON_NEON != 0;
+    CHECK(gnomon::best_lanes() == (neon ? gnomon::cpu_level::neon : gnomon::cpu_level::wasm128));
+    CHECK(gnomon::detail::with_lanes(gnomon::best_lanes(), []<typename Isa>() { return !std::same_as<Isa, gnomon::emulated<16>>; }));
 }
 #endif
 

@@ -15,12 +15,14 @@ constexpr simd<> backend{};
 /// Texels that lanes filter themselves: by whole numbers, and by doubles.
 constexpr std::tuple filtered_in_lanes{named<rg8>{"rg8"},         named<rgb8>{"rgb8"},   named<rg16>{"rg16"},
                                        named<rgba16f>{"rgba16f"}, named<rg32f>{"rg32f"}, named<paper<unorm8>>{"paper_rg8"}};
+constexpr std::tuple kernels_in_lanes =
+    std::tuple_cat(kernels, std::tuple{named<fast<gaussian<4>>>{"fast<gaussian<4>>"}, named<fast<box<3>>>{"fast<box<3>>"}});
 constexpr std::tuple received_in_lanes{named<rg8>{"rg8"}, named<rga8>{"rga8"}, named<rg16>{"rg16"}, named<rga16>{"rga16"}};
 
 } // namespace
 
 void print_lanes() {
-    print("filter_in_lanes", filtered_in_lanes, kernels, []<texel_format T, kernel K>(named<T>, named<K>) {
+    print("filter_in_lanes", filtered_in_lanes, kernels_in_lanes, []<texel_format T, kernel K>(named<T>, named<K>) {
         test::dice roll(96);
         const image<T> map = test::noise<T>(roll, {139, 47}, 3);
         image<T> soft(map.size(), T::clear());

@@ -7,8 +7,8 @@ golden=$root/tests/golden
 golden_parts=(texel facade filter receive geometry grid lanes main)
 
 # name | what it adds | packages | what this processor must have | compiler and flags | what runs the program
+em_flags='-Wno-unused-command-line-argument -sSINGLE_FILE=1 -include tests/golden/std_bit_cast.hpp'
 toolchain_rows() {
-    local em_flags='-Wno-unused-command-line-argument -sSINGLE_FILE=1 -include tests/golden/std_bit_cast.hpp'
     cat <<TABLE
 gcc-O0          | g++, not optimised              | g++                                      |         | g++ -O0                                            |
 gcc-O1          | g++                             | g++                                      |         | g++ -O1                                            |
@@ -46,7 +46,8 @@ geometry-fused   | geometry/ with fused multiply-adds: the lines called exact mu
 fast-math        | what -ffast-math is made of must be refused; and what it would change
 can-fail         | four copies of the library, each with one thing broken: a line must change
 tests-aarch64    | the tests of texel/, filter/ and receive/ themselves, on 64-bit ARM
-tests-s390x      | the same on a big-endian processor
+tests-s390x      | those of texel/, filter/ and receive/ on a big-endian processor
+tests-wasm       | those of simd/ and backend/ in WebAssembly, with its vectors
 TABLE
 }
 
@@ -235,21 +236,34 @@ TABLE
     row "$1" "$caught" "$missed" 0 $((SECONDS - began)) "broken copies of the library that turned a line red"
 }
 
-row_tests_aarch64() { test_row "$1" aarch64-linux-gnu-g++ g++-aarch64-linux-gnu qemu-aarch64 /usr/aarch64-linux-gnu; }
-row_tests_s390x() { test_row "$1" s390x-linux-gnu-g++ g++-s390x-linux-gnu qemu-s390x /usr/s390x-linux-gnu; }
+row_tests_aarch64() {
+    test_row "$1" "texel filter receive simd backend" "g++-aarch64-linux-gnu" "aarch64-linux-gnu-g++ -O2" "qemu-aarch64 -L /usr/aarch64-linux-gnu"
+}
+row_tests_s390x() {
+    test_row "$1" "texel filter receive" "g++-s390x-linux-gnu" "s390x-linux-gnu-g++ -O1" "qemu-s390x -L /usr/s390x-linux-gnu"
+}
+row_tests_wasm() {
+    local -x NODE_PATH=/usr/share/nodejs
+    test_row "$1" "simd backend" emscripten "em++ -O1 -msimd128 -sALLOW_MEMORY_GROWTH=1 $em_flags" node
+}
 
-# test_row NAME COMPILER PACKAGE QEMU LIBRARIES: passed and failed are test cases. Those of millions of pairs take minutes.
+# test_row NAME FOLDERS PACKAGE COMPILER RUN: passed and failed are test cases. Those of millions of pairs take minutes.
 test_row() {
-    local began=$SECONDS name=$1 compiler=$2 run=("$4" -L "$5") folders=(texel filter receive simd backend) file count
-    can_run "$name" '' "$compiler" "$3" qemu-user doctest-dev || return 0
+    local began=$SECONDS name=$1 folders compiler run file count binary
+    read -ra folders <<<"$2"
+    read -ra compiler <<<"$4"
+    read -ra run <<<"$5"
+    can_run "$name" '' "${compiler[0]}" "$3" qemu-user doctest-dev || return 0
+    binary=$(program "$name" "${compiler[0]}")
     mkdir -p "$work/$name"
     for file in main "${folders[@]/%//*}"; do printf '%s\n' "$root"/tests/$file.cpp; done |
-        xargs -P "$jobs" -I {} bash -c 'out=${3#"$2/tests/"}
-            "$1" -std=c++20 -O1 -I "$2/include" -isystem "$4" -c "$3" -o "$5/${out//\//.}.o"' \
-            compile "$compiler" "$root" {} "$work/glm" "$work/$name" &&
-        "$compiler" "$work/$name"/*.o -o "$work/$name.exe" ||
+        xargs -P "$jobs" -I {} bash -c 'file=$1 root=$2 glm=$3 out=$4; shift 4
+            name=${file#"$root/tests/"}
+            "$@" -std=c++20 -I "$root/include" -isystem "$glm" -c "$file" -o "$out/${name//\//.}.o"' \
+            compile {} "$root" "$work/glm" "$work/$name" "${compiler[@]}" &&
+        "${compiler[@]}" "$work/$name"/*.o -o "$binary" ||
         { row "$name" 0 1 0 $((SECONDS - began)) "does not build"; return; }
-    "${run[@]}" "$work/$name.exe" -tce='*million*' | tee "$work/printed" || true
+    "${run[@]}" "$binary" -tce='*million*' -nc | tee "$work/printed" || true
     # [doctest] test cases: 190 | 188 passed | 0 failed | 2 skipped
     read -ra count < <(sed -n 's/.*test cases: *\([0-9]*\) *| *\([0-9]*\) passed *| *\([0-9]*\) failed *| *\([0-9]*\) skipped.*/\2 \3 \4/p' "$work/printed")
     row "$name" "${count[0]:-0}" "${count[1]:-1}" "${count[2]:-0}" $((SECONDS - began)) "test cases of ${folders[*]}"

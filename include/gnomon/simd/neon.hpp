@@ -97,6 +97,39 @@ struct neon {
         return bytes_of(
             vuzp1q_u32(vreinterpretq_u32_u64(vshrq_n_u64(low, Shift)), vreinterpretq_u32_u64(vshrq_n_u64(high, Shift))));
     }
+    GNOMON_LANES ints either(ints a, ints b) noexcept { return vorrq_u8(a, b); }
+    GNOMON_LANES ints subtract16(ints a, ints b) noexcept { return bytes_of(vsubq_u16(codes16(a), codes16(b))); }
+    GNOMON_LANES ints subtract_to_zero16(ints a, ints b) noexcept { return bytes_of(vqsubq_u16(codes16(a), codes16(b))); }
+    GNOMON_LANES ints multiply_low16(ints a, ints b) noexcept { return bytes_of(vmulq_u16(codes16(a), codes16(b))); }
+    GNOMON_LANES ints multiply_high16(ints a, ints b) noexcept {
+        const uint32x4_t low = vmull_u16(vget_low_u16(codes16(a)), vget_low_u16(codes16(b)));
+        return bytes_of(vuzp2q_u16(codes16(bytes_of(low)), codes16(bytes_of(vmull_high_u16(codes16(a), codes16(b))))));
+    }
+    template <int Bits> GNOMON_LANES ints shift_left16(ints a) noexcept { return bytes_of(vshlq_n_u16(codes16(a), Bits)); }
+    template <int Bits> GNOMON_LANES ints shift_right16(ints a) noexcept { return bytes_of(vshrq_n_u16(codes16(a), Bits)); }
+    GNOMON_LANES ints greater16(ints a, ints b) noexcept { return bytes_of(vcgtq_u16(codes16(a), codes16(b))); }
+    GNOMON_LANES ints upper_where_greater16(ints values, ints a, ints b) noexcept {
+        return bytes_of(vandq_u16(vcgtq_u16(codes16(a), codes16(b)), vshrq_n_u16(codes16(values), 8)));
+    }
+    GNOMON_LANES bool any_equal16(ints a, ints b, ints c, ints d) noexcept {
+        return vmaxvq_u16(vorrq_u16(vceqq_u16(codes16(a), codes16(b)), vceqq_u16(codes16(c), codes16(d)))) != 0;
+    }
+
+    GNOMON_LANES ints both(ints a, ints b) noexcept { return vandq_u8(a, b); }
+    GNOMON_LANES ints multiply32(ints a, ints b) noexcept { return bytes_of(vmulq_u32(whole(a), whole(b))); }
+    GNOMON_LANES ints lesser32(ints a, ints b) noexcept { return bytes_of(vminq_s32(signed32(a), signed32(b))); }
+    GNOMON_LANES ints greater32(ints a, ints b) noexcept { return bytes_of(vmaxq_s32(signed32(a), signed32(b))); }
+    template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return bytes_of(vshlq_n_u32(whole(a), Bits)); }
+    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
+        std::int32_t offset[4], found[4];
+        store(offset, offsets);
+        for (int i = 0; i < 4; ++i) std::memcpy(&found[i], static_cast<const char*>(from) + offset[i], sizeof found[i]);
+        return load(found);
+    }
+    GNOMON_LANES ints floor32(floats a) noexcept { // the conversion knows other results of NaN and of what is too much
+        return bytes_of(vbslq_s32(vcltq_f32(a, vdupq_n_f32(0x1p31f)), vcvtmq_s32_f32(a), vdupq_n_s32(-0x7FFFFFFF - 1)));
+    }
+
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
     GNOMON_LANES floats load(const float* from) noexcept { return vld1q_f32(from); }
@@ -135,15 +168,31 @@ struct neon {
             return load(from);
         } else if constexpr (std::same_as<Channel, half16> && Channels == 1) {
             return vcvt_f32_f16(vreinterpret_f16_u16(vld1_u16(from)));
+        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 1) {
+            return number(vld1_u16(from));
+        } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
+            const float32x4x2_t pairs = vld2q_f32(from);
+            return pairs.val[c];
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
     }
+    GNOMON_LANES floats numbers(ints a) noexcept { return vcvtq_f32_s32(signed32(a)); }
+    GNOMON_LANES bool any(masks a) noexcept { return vmaxvq_u32(a) != 0; }
 
     GNOMON_LANES doubles load(const double* from) noexcept { return vld1q_f64(from); }
     GNOMON_LANES_VOID void store(double* to, doubles a) noexcept { vst1q_f64(to, a); }
     GNOMON_LANES doubles repeat(double v) noexcept { return vdupq_n_f64(v); }
     GNOMON_LANES doubles add(doubles a, doubles b) noexcept { return vaddq_f64(a, b); }
+    GNOMON_LANES doubles subtract(doubles a, doubles b) noexcept { return vsubq_f64(a, b); }
+    GNOMON_LANES doubles smaller(doubles a, doubles b) noexcept { return vbslq_f64(vcltq_f64(a, b), a, b); }
+    GNOMON_LANES doubles larger(doubles a, doubles b) noexcept { return vbslq_f64(vcgtq_f64(a, b), a, b); }
+    GNOMON_LANES doubles truncate(doubles a) noexcept { return vcvtq_f64_s64(vcvtq_s64_f64(a)); }
+    GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept {
+        const uint64x2_t is = vcgtq_f64(a, b);
+        return static_cast<unsigned>((vgetq_lane_u64(is, 0) & 1) | (vgetq_lane_u64(is, 1) & 2));
+    }
+    GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
     GNOMON_LANES doubles multiply(doubles a, doubles b) noexcept { return vmulq_f64(a, b); }
     GNOMON_LANES doubles divide(doubles a, doubles b) noexcept { return vdivq_f64(a, b); }
     GNOMON_LANES doubles add_product(doubles sum, doubles a, doubles b) noexcept { return vfmaq_f64(sum, a, b); }
@@ -163,7 +212,9 @@ struct neon {
         }
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
-        if constexpr (std::same_as<Channel, half16>)
+        if constexpr (Channel::whole_codes)
+            store_low(to, bytes_of(vcvtq_u32_f32(a)));
+        else if constexpr (std::same_as<Channel, half16>)
             vst1_u16(to, vreinterpret_u16_f16(vcvt_f16_f32(a)));
         else
             store(to, add(a, vdupq_n_f32(0.0f)));
@@ -182,12 +233,24 @@ struct neon {
             vst1_f32(to, vadd_f32(vcvt_f32_f64(a), vdup_n_f32(0.0f)));
         }
     }
+    GNOMON_LANES doubles store_floats(float* to, doubles a) noexcept {
+        const float32x2_t two = vadd_f32(vcvt_f32_f64(a), vdup_n_f32(0.0f));
+        vst1_f32(to, two);
+        return vcvt_f64_f32(two);
+    }
+    template <channel Channel>
+    GNOMON_LANES_VOID void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
+        emulated<bytes>::template cast_pairs<Channel>(to, where, {{vgetq_lane_f64(codes, 0), vgetq_lane_f64(codes, 1)}});
+    }
 
   private:
+    GNOMON_LANES ints bytes_of(uint16x8_t a) noexcept { return vreinterpretq_u8_u16(a); }
     GNOMON_LANES ints bytes_of(int16x8_t a) noexcept { return vreinterpretq_u8_s16(a); }
     GNOMON_LANES ints bytes_of(int32x4_t a) noexcept { return vreinterpretq_u8_s32(a); }
     GNOMON_LANES ints bytes_of(uint32x4_t a) noexcept { return vreinterpretq_u8_u32(a); }
     GNOMON_LANES int16x8_t words(ints a) noexcept { return vreinterpretq_s16_u8(a); }
+    GNOMON_LANES uint16x8_t codes16(ints a) noexcept { return vreinterpretq_u16_u8(a); }
+    GNOMON_LANES int32x4_t signed32(ints a) noexcept { return vreinterpretq_s32_u8(a); }
     GNOMON_LANES uint32x4_t whole(ints a) noexcept { return vreinterpretq_u32_u8(a); }
     template <int Shift> GNOMON_LANES uint32x4_t lowered(ints a) noexcept {
         if constexpr (Shift == 0)

@@ -7,6 +7,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <cstring>
 #include <wasm_simd128.h>
 
 namespace gnomon::inline GNOMON_BUILD {
@@ -17,7 +18,7 @@ struct wasm128 {
     static constexpr int double_lanes = 2;
     using ints = v128_t;
     using floats [[gnu::vector_size(16)]] = float;
-    using masks = v128_t;
+    using masks [[gnu::vector_size(16)]] = unsigned;
     using doubles [[gnu::vector_size(16)]] = double;
 
     GNOMON_LANES ints load(const void* from) noexcept { return wasm_v128_load(from); }
@@ -94,6 +95,39 @@ struct wasm128 {
         const ints low = wasm_u64x2_shr(wasm_u64x2_extmul_low_u32x4(a, b), Shift);
         return wasm_i32x4_shuffle(low, wasm_u64x2_shr(wasm_u64x2_extmul_high_u32x4(a, b), Shift), 0, 2, 4, 6);
     }
+    GNOMON_LANES ints either(ints a, ints b) noexcept { return a | b; }
+    GNOMON_LANES ints subtract16(ints a, ints b) noexcept { return wasm_i16x8_sub(a, b); }
+    GNOMON_LANES ints subtract_to_zero16(ints a, ints b) noexcept { return wasm_u16x8_sub_sat(a, b); }
+    GNOMON_LANES ints multiply_low16(ints a, ints b) noexcept { return wasm_i16x8_mul(a, b); }
+    GNOMON_LANES ints multiply_high16(ints a, ints b) noexcept {
+        return odd_words(wasm_u32x4_extmul_low_u16x8(a, b), wasm_u32x4_extmul_high_u16x8(a, b));
+    }
+    template <int Bits> GNOMON_LANES ints shift_left16(ints a) noexcept { return wasm_i16x8_shl(a, Bits); }
+    template <int Bits> GNOMON_LANES ints shift_right16(ints a) noexcept { return wasm_u16x8_shr(a, Bits); }
+    GNOMON_LANES ints greater16(ints a, ints b) noexcept { return wasm_u16x8_gt(a, b); }
+    GNOMON_LANES ints upper_where_greater16(ints values, ints a, ints b) noexcept {
+        return wasm_u16x8_shr(values, 8) & wasm_u16x8_gt(a, b);
+    }
+    GNOMON_LANES bool any_equal16(ints a, ints b, ints c, ints d) noexcept {
+        return wasm_v128_any_true(wasm_i16x8_eq(a, b) | wasm_i16x8_eq(c, d));
+    }
+
+    GNOMON_LANES ints both(ints a, ints b) noexcept { return a & b; }
+    GNOMON_LANES ints multiply32(ints a, ints b) noexcept { return wasm_i32x4_mul(a, b); }
+    GNOMON_LANES ints lesser32(ints a, ints b) noexcept { return wasm_i32x4_min(a, b); }
+    GNOMON_LANES ints greater32(ints a, ints b) noexcept { return wasm_i32x4_max(a, b); }
+    template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return wasm_i32x4_shl(a, Bits); }
+    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
+        std::int32_t offset[4], found[4];
+        store(offset, offsets);
+        for (int i = 0; i < 4; ++i) std::memcpy(&found[i], static_cast<const char*>(from) + offset[i], sizeof found[i]);
+        return load(found);
+    }
+    GNOMON_LANES ints floor32(floats a) noexcept { // the conversion knows other results of NaN and of what is too much
+        const ints whole = wasm_i32x4_trunc_sat_f32x4(wasm_f32x4_floor(bits_of(a)));
+        return wasm_v128_bitselect(whole, repeat32(0x80000000u), wasm_f32x4_lt(bits_of(a), bits_of(repeat(0x1p31f))));
+    }
+
     GNOMON_LANES_VOID void settle(ints&) noexcept {}
 
     GNOMON_LANES floats load(const float* from) noexcept { return floats_of(wasm_v128_load(from)); }
@@ -105,7 +139,7 @@ struct wasm128 {
     GNOMON_LANES floats divide(floats a, floats b) noexcept { return a / b; }
     GNOMON_LANES floats add_product(floats sum, floats a, floats b) noexcept { return sum + a * b; } // nothing fuses them here
     GNOMON_LANES floats fraction(floats a, float b) noexcept { return a / repeat(b); }
-    GNOMON_LANES masks greater(floats a, floats b) noexcept { return wasm_f32x4_gt(bits_of(a), bits_of(b)); }
+    GNOMON_LANES masks greater(floats a, floats b) noexcept { return masks_of(wasm_f32x4_gt(bits_of(a), bits_of(b))); }
     GNOMON_LANES masks not_greater(floats a, floats b) noexcept { return ~greater(a, b); }
     GNOMON_LANES masks positive(floats a, floats b,
                                 floats c) noexcept { // in double: the product is exact, and a sum keeps its sign
@@ -115,7 +149,7 @@ struct wasm128 {
                                   6);
     }
     GNOMON_LANES masks both(masks a, masks b) noexcept { return a & b; }
-    GNOMON_LANES floats keep(masks where, floats a) noexcept { return floats_of(where & bits_of(a)); }
+    GNOMON_LANES floats keep(masks where, floats a) noexcept { return floats_of(bits_of(where) & bits_of(a)); }
     template <channel Channel, int Channels> GNOMON_LANES floats codes_of(const typename Channel::storage* from, int c) noexcept {
         if constexpr (std::same_as<Channel, unorm8> && Channels == 2) {
             const ints pairs = wasm_u32x4_extend_low_u16x8(wasm_v128_load64_zero(from));
@@ -125,15 +159,32 @@ struct wasm128 {
             return number(c == 0 ? pairs & wasm_u32x4_splat(65535) : wasm_u32x4_shr(pairs, 16));
         } else if constexpr (std::same_as<Channel, float32> && Channels == 1) {
             return load(from);
+        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 1) {
+            return number(wasm_u32x4_extend_low_u16x8(wasm_v128_load64_zero(from)));
+        } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
+            const ints low = wasm_v128_load(from), high = wasm_v128_load(from + 4);
+            return floats_of(c == 0 ? wasm_i32x4_shuffle(low, high, 0, 2, 4, 6) : wasm_i32x4_shuffle(low, high, 1, 3, 5, 7));
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
     }
+    GNOMON_LANES floats numbers(ints a) noexcept { return floats_of(wasm_f32x4_convert_i32x4(a)); }
+    GNOMON_LANES bool any(masks a) noexcept { return wasm_v128_any_true(bits_of(a)); }
 
     GNOMON_LANES doubles load(const double* from) noexcept { return doubles_of(wasm_v128_load(from)); }
     GNOMON_LANES_VOID void store(double* to, doubles a) noexcept { wasm_v128_store(to, bits_of(a)); }
     GNOMON_LANES doubles repeat(double v) noexcept { return doubles{v, v}; }
     GNOMON_LANES doubles add(doubles a, doubles b) noexcept { return a + b; }
+    GNOMON_LANES doubles subtract(doubles a, doubles b) noexcept { return a - b; }
+    GNOMON_LANES doubles smaller(doubles a, doubles b) noexcept { return doubles_of(wasm_f64x2_pmin(bits_of(b), bits_of(a))); }
+    GNOMON_LANES doubles larger(doubles a, doubles b) noexcept { return doubles_of(wasm_f64x2_pmax(bits_of(b), bits_of(a))); }
+    GNOMON_LANES doubles truncate(doubles a) noexcept {
+        return doubles_of(wasm_f64x2_convert_low_i32x4(wasm_i32x4_trunc_sat_f64x2_zero(bits_of(a))));
+    }
+    GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept {
+        return static_cast<unsigned>(wasm_i64x2_bitmask(wasm_f64x2_gt(bits_of(a), bits_of(b))));
+    }
+    GNOMON_LANES_VOID void settle(doubles&) noexcept {}
     GNOMON_LANES doubles multiply(doubles a, doubles b) noexcept { return a * b; }
     GNOMON_LANES doubles divide(doubles a, doubles b) noexcept { return a / b; }
     GNOMON_LANES doubles add_product(doubles sum, doubles a, doubles b) noexcept { return sum + a * b; }
@@ -145,7 +196,9 @@ struct wasm128 {
         return doubles{static_cast<double>(Channel::code(from[0])), static_cast<double>(Channel::code(from[1]))};
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
-        if constexpr (std::same_as<Channel, float32>)
+        if constexpr (Channel::whole_codes)
+            store_low(to, wasm_u32x4_trunc_sat_f32x4(bits_of(a)));
+        else if constexpr (std::same_as<Channel, float32>)
             store(to, a + repeat(0.0f));
         else
             for (int i = 0; i < float_lanes; ++i) to[i] = Channel::store(static_cast<double>(a[i]));
@@ -157,8 +210,19 @@ struct wasm128 {
             else
                 to[i] = Channel::store(a[i]);
     }
+    GNOMON_LANES doubles store_floats(float* to, doubles a) noexcept {
+        const floats two = floats_of(wasm_f32x4_demote_f64x2_zero(bits_of(a))) + repeat(0.0f);
+        wasm_v128_store64_lane(to, bits_of(two), 0);
+        return lower(two);
+    }
+    template <channel Channel>
+    GNOMON_LANES_VOID void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
+        emulated<bytes>::template cast_pairs<Channel>(to, where, {{codes[0], codes[1]}});
+    }
 
   private:
+    GNOMON_LANES ints bits_of(masks a) noexcept { return reinterpret_cast<ints>(a); }
+    GNOMON_LANES masks masks_of(ints a) noexcept { return reinterpret_cast<masks>(a); }
     GNOMON_LANES ints bits_of(floats a) noexcept { return reinterpret_cast<ints>(a); }
     GNOMON_LANES ints bits_of(doubles a) noexcept { return reinterpret_cast<ints>(a); }
     GNOMON_LANES floats floats_of(ints a) noexcept { return reinterpret_cast<floats>(a); }

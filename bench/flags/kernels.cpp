@@ -1,0 +1,76 @@
+// GNOMON_BENCH_BUILD: the name of the build, o2_plain or o3_native.
+#include "kernels.hpp"
+
+#include <gnomon/backend/simd.hpp>
+
+#include <random>
+
+namespace {
+using namespace gnomon;
+
+constexpr extent size{1024, 1024};
+
+/// Penumbrae and receivers without any order.
+template <typename Texel> struct scene {
+    image<Texel> map{size}, soft{size};
+    image<float> x{size}, y{size}, z{size}, intensity{size};
+    image<std::uint16_t> z16{size};
+    image<std::uint8_t> intensity8{size};
+
+    scene() {
+        std::mt19937 dice(1);
+        const auto unit = [&dice] { return static_cast<double>(dice()) * 0x1p-32; };
+        for (int row = 0; row < size.height; ++row)
+            for (int column = 0; column < size.width; ++column) {
+                const double mask = unit();
+                map(column, row).stored[Texel::mask_index] = Texel::channel_type::encode(mask);
+                map(column, row).stored[Texel::depth_index] = Texel::channel_type::encode(mask * unit());
+                x(column, row) = static_cast<float>(column + unit());
+                y(column, row) = static_cast<float>(row + unit());
+                z(column, row) = static_cast<float>(unit());
+                z16(column, row) = unorm16::encode(unit());
+            }
+    }
+};
+template <typename Texel> scene<Texel>& scene_of() {
+    static scene<Texel> one;
+    return one;
+}
+template <typename T> strided_span<T> all_of(image<T>& memory) { return {&memory(0, 0), size.width * size.height}; }
+
+template <typename Texel, kernel Kernel> void blur() {
+    static filter_scratch<Texel, Kernel> scratch(size.width);
+    scene<Texel>& s = scene_of<Texel>();
+    simd<>{}.filter_region(s.map.view(), s.soft.view(), whole(size), scratch);
+}
+template <typename Texel> void decide() {
+    scene<Texel>& s = scene_of<Texel>();
+    receive(simd<>{}, all_of(s.map), all_of(s.z), all_of(s.intensity));
+}
+void decide_codes() {
+    scene<rg8>& s = scene_of<rg8>();
+    receive(simd<>{}, all_of(s.map), all_of(s.z16), all_of(s.intensity8));
+}
+void decide_at_points() {
+    scene<rg8>& s = scene_of<rg8>();
+    receive(simd<>{}, s.map.view(), all_of(s.x), all_of(s.y), all_of(s.z), all_of(s.intensity));
+}
+
+constexpr flags::kernel kernels[] = {
+    {"filter.u8x2.k5", blur<rg8, fast<gaussian<2>>>},
+    {"filter.u8x2.k9", blur<rg8, fast<gaussian<4>>>},
+    {"filter.u8x2.k9.exact", blur<rg8, gaussian<4>>},
+    {"filter.u8x2.k33", blur<rg8, fast<gaussian<16>>>},
+    {"filter.box.u8x2.r32", blur<rg8, box<32>>},
+    {"filter.u16x2.k9", blur<rg16, fast<gaussian<4>>>},
+    {"filter.u16x2.k9.exact", blur<rg16, gaussian<4>>},
+    {"filter.f32x2.k9", blur<rg32f, fast<gaussian<4>>>},
+    {"receive.u8x2.f32", decide<rg8>},
+    {"receive.u16x2.f32", decide<rg16>},
+    {"receive.u8x2.z16", decide_codes},
+    {"receive.bilinear.u8x2", decide_at_points},
+};
+
+} // namespace
+
+std::span<const flags::kernel> flags::GNOMON_BENCH_BUILD() { return kernels; }
