@@ -1,15 +1,22 @@
-// How long a decision takes, receivers one to one on texels: lanes against the scalar loop and against what memory allows.
+// How long a decision takes: lanes against the scalar loop, against what memory allows, and against OpenCV's operations on arrays.
 //
-// Names are WHAT/FORMAT/SIZE, SIZE the side of the map, and all run in one process. The floor is a copy that moves as many bytes.
+// Names are WHAT/FORMAT/SIZE, SIZE the side of the map, FORMAT the texel and the depth: u8x2.z16 is pairs of bytes, depths of 16 bits
+// and intensities of 8. All run in one process.
+//     scalar, simd, simd.avx2, simd.sse2     one receiver a texel, in rows
+//     copy                                   the floor: memcpy that moves as many bytes
+//     opencv                                 divide, subtract, compare, setTo, copyTo on planes, in one thread, if CMake found OpenCV
 #include <gnomon/backend/simd.hpp>
 
 #include <benchmark/benchmark.h>
 
+#include <concepts>
 #include <cstdint>
 #include <cstring>
 #include <random>
 #include <string>
-#include <vector>
+#if GNOMON_BENCH_OPENCV
+#include <opencv2/core.hpp>
+#endif
 
 namespace {
 using namespace gnomon;
@@ -22,48 +29,107 @@ template <typename F> void add(const std::string& what, const char* format, int 
     });
 }
 
-/// Casters and receivers without any order, so that a branch cannot learn who is in shadow.
-template <typename Texel, typename Backend> void add_ours(const char* what, const char* format, int size) {
-    const auto count = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
-    add(what, format, size, count * (sizeof(Texel) + 2 * sizeof(float)), [count](benchmark::State& state) {
+std::size_t square(int size) { return static_cast<std::size_t>(size) * static_cast<std::size_t>(size); }
+
+/// One row of so many, its first element on a boundary of 64 bytes, as an engine's buffers are. \pre size is a multiple of 64
+template <typename T> strided_span<T> row_of(image<T>& memory) {
+    return {&memory(0, 0), memory.size().width * memory.size().height};
+}
+template <typename T> strided_span<const T> row_of(const image<T>& memory) {
+    return {&memory(0, 0), memory.size().width * memory.size().height};
+}
+
+/// Penumbrae and receivers without any order, so that a branch cannot learn who is in shadow.
+template <typename Texel, typename Depth> struct scene {
+    image<Texel> texels;
+    image<Depth> z;
+
+    explicit scene(int size) : texels({size, size}), z({size, size}) {
         std::mt19937 dice(1);
-        std::vector<Texel> texels;
-        std::vector<float> z, intensity(count);
-        while (texels.size() < count) {
-            texels.push_back(Texel::caster(static_cast<float>(dice() % 256) / 255.0f));
-            z.push_back(static_cast<float>(dice() % 1000) / 1000.0f);
-        }
+        const auto unit = [&dice] { return static_cast<double>(dice()) * 0x1p-32; };
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x) {
+                const double mask = unit();
+                texels(x, y).stored[Texel::mask_index] = Texel::channel_type::encode(mask);
+                texels(x, y).stored[Texel::depth_index] = Texel::channel_type::encode(mask * unit());
+                const double depth = unit();
+                if constexpr (std::same_as<Depth, float>)
+                    z(x, y) = static_cast<float>(depth);
+                else
+                    z(x, y) = unorm16::encode(depth);
+            }
+    }
+};
+
+template <typename Texel, typename Depth, typename Intensity>
+constexpr std::size_t bytes_of = sizeof(Texel) + sizeof(Depth) + sizeof(Intensity);
+
+template <typename Backend, typename Texel, typename Depth, typename Intensity>
+void add_ours(const char* what, const char* format, int size) {
+    add(what, format, size, square(size) * bytes_of<Texel, Depth, Intensity>, [size](benchmark::State& state) {
+        const scene<Texel, Depth> from(size);
+        image<Intensity> intensity({size, size});
         for ([[maybe_unused]] auto _ : state) {
-            receive(Backend{}, texels, z, intensity);
+            receive(Backend{}, row_of(from.texels), row_of(from.z), row_of(intensity));
             benchmark::ClobberMemory();
         }
     });
 }
 
-template <typename Texel> void add_format(const char* format) {
-    for (const int size : {128, 256, 1024}) {
-        add_ours<Texel, scalar>("scalar", format, size);
-        add_ours<Texel, simd<>>("simd", format, size);
+template <typename Texel, typename Depth, typename Intensity> void add_format(const char* format) {
+    for (const int size : {128, 1024, 4096}) {
+        add_ours<scalar, Texel, Depth, Intensity>("scalar", format, size);
+        add_ours<simd<>, Texel, Depth, Intensity>("simd", format, size);
 #if GNOMON_X86
-        add_ours<Texel, simd<sse2>>("simd.sse2", format, size);
-        if (best_lanes() >= cpu_level::avx2) add_ours<Texel, simd<avx2>>("simd.avx2", format, size);
+        add_ours<simd<sse2>, Texel, Depth, Intensity>("simd.sse2", format, size);
+        if (best_lanes() >= cpu_level::avx2) add_ours<simd<avx2>, Texel, Depth, Intensity>("simd.avx2", format, size);
 #endif
-        const auto half = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * (sizeof(Texel) + 2 * sizeof(float)) / 2;
+        const auto half = square(size) * bytes_of<Texel, Depth, Intensity> / 2;
         add("copy", format, size, 2 * half, [half](benchmark::State& state) {
-            const std::vector<unsigned char> from(half, 1);
-            std::vector<unsigned char> to(half);
+            const image<unsigned char> from({static_cast<int>(half), 1}, 1);
+            image<unsigned char> to(from.size());
             for ([[maybe_unused]] auto _ : state) {
-                std::memcpy(to.data(), from.data(), half);
+                std::memcpy(&to(0, 0), &from(0, 0), half);
                 benchmark::ClobberMemory();
             }
         });
     }
 }
+
+/// s = 1 - e/m, shadowed where z > s, and there the mask: on planes, which is how OpenCV likes it best.
+void add_opencv([[maybe_unused]] int size) {
+#if GNOMON_BENCH_OPENCV
+    add("opencv", "f32x2.f32", size, square(size) * bytes_of<rg32f, float, float>, [size](benchmark::State& state) {
+        cv::setNumThreads(1);
+        const scene<rg32f, float> from(size);
+        cv::Mat e(size, size, CV_32F), m(size, size, CV_32F), z(size, size, CV_32F), s(size, size, CV_32F),
+            shadowed(size, size, CV_8U), intensity(size, size, CV_32F);
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x) {
+                e.at<float>(y, x) = from.texels(x, y).stored[0];
+                m.at<float>(y, x) = from.texels(x, y).stored[1];
+                z.at<float>(y, x) = from.z(x, y);
+            }
+        for ([[maybe_unused]] auto _ : state) {
+            cv::divide(e, m, s);
+            cv::subtract(1.0, s, s);
+            cv::compare(z, s, shadowed, cv::CMP_GT);
+            intensity.setTo(0.0);
+            m.copyTo(intensity, shadowed);
+            benchmark::ClobberMemory();
+        }
+    });
+#endif
+}
 } // namespace
 
 int main(int count, char** words) {
-    add_format<rg8>("u8x2");
-    add_format<rg16>("u16x2");
+    add_format<rg8, std::uint16_t, std::uint8_t>("u8x2.z16");
+    add_format<rg8, float, float>("u8x2.f32");
+    add_format<rg16, std::uint16_t, std::uint16_t>("u16x2.z16");
+    add_format<rg16, float, float>("u16x2.f32");
+    add_format<rg32f, float, float>("f32x2.f32");
+    for (const int size : {128, 1024, 4096}) add_opencv(size);
     benchmark::Initialize(&count, words);
     if (benchmark::ReportUnrecognizedArguments(count, words)) return 1;
     benchmark::RunSpecifiedBenchmarks();

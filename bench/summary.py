@@ -1,4 +1,4 @@
-"""summary.py FILTER.json RECEIVE.json [--sparse, --grid, --pipeline, --threads FILE.json] [--summary FILE.json]: what Google Benchmark measured, as ratios of medians of processor time.
+"""summary.py FOLDER [--summary FILE.json]: what Google Benchmark measured, as ratios of medians of processor time.
 
 The table goes to stdout; FILE.json is a flat object, name -> number. A name without a backend is that of simd<>, `.avx2` of
 simd<avx2>; of a filter, a name without `.exact` is the fast form."""
@@ -16,9 +16,9 @@ def medians(path):
     return {run["run_name"]: run["cpu_time"] for run in runs if run.get("aggregate_name") == "median"}
 
 
-def filters(time):
+def filters(path):
     """Ratios of what was measured; nothing of what was not."""
-    ratios = {}
+    time, ratios = medians(path), {}
 
     def peer(of, taps, size):
         return min((time[name] for what in ("blur", "sep") if (name := f"{what}/{of}/k{taps}/{size}") in time), default=None)
@@ -43,20 +43,51 @@ def filters(time):
                             ratios[f"filter.{of}.k{taps}.vs_opencv{suffix}"] = theirs / ours
             if logs:
                 ratios[f"filter.{of}.geomean.vs_opencv{suffix}"] = math.exp(sum(logs) / len(logs))
+    for what, suffix in (("box", ""), ("box.avx2", ".avx2")):
+        narrow, wide = (time.get(f"{what}/u8x2/k{taps}/1024") for taps in (3, 65))
+        if narrow and wide:
+            ratios[f"filter.box.u8x2.r32.over_r1{suffix}"] = wide / narrow
+            if theirs := time.get("boxcv/u8x2/k65/1024"):
+                ratios[f"filter.box.u8x2.r32.vs_opencv{suffix}"] = theirs / wide
     return ratios
 
 
-def receives(time):
-    ratios = {}
-    for name, floor in time.items():
+WHERE = {"128": "l2", "1024": "l3", "4096": "dram"}  # where a map of that side lies on most machines
+
+
+def receives(path):
+    time, ratios = medians(path), {}
+    for name, of_lanes in time.items():
         what, of, size = name.split("/")
-        if what != "copy":
+        if what not in ("simd", "simd.avx2", "simd.sse2"):
             continue
-        where = {"128": "l2", "1024": "beyond"}.get(size, size)
-        for mine, suffix in (("simd", ""), ("simd.avx2", ".avx2"), ("simd.sse2", ".sse2")):
-            if ours := time.get(f"{mine}/{of}/{size}"):
-                ratios[f"receive.{of}.f32.of_copy_{where}{suffix}"] = floor / ours
-                ratios[f"receive.{of}.f32.vs_scalar_{where}{suffix}"] = time[f"scalar/{of}/{size}"] / ours
+        suffix = what.removeprefix("simd")
+        for peer, called in (("copy", "of_copy"), ("scalar", "vs_scalar")):
+            if theirs := time.get(f"{peer}/{of}/{size}"):
+                ratios[f"receive.{of}.{called}_{WHERE[size]}{suffix}"] = theirs / of_lanes
+        if theirs := time.get(f"opencv/{of}/{size}"):
+            where = "" if WHERE[size] == "l2" else "_" + WHERE[size]
+            ratios[f"receive.{of.removesuffix('.f32')}.vs_opencv{where}{suffix}"] = theirs / of_lanes
+    return ratios
+
+
+def rasters(path):
+    """Of all sizes of triangles and both lights the geometric mean; of small ones, under a sun, how many millions a second."""
+    time, ratios = medians(path), {}
+    rate = {run["run_name"]: run["items_per_second"] for run in json.loads(pathlib.Path(path).read_text())["benchmarks"]
+            if run.get("aggregate_name") == "median"}
+    for what, suffix in (("simd", ""), ("simd.avx2", ".avx2"), ("simd.sse2", ".sse2")):
+        logs = []
+        for name in time:
+            mine, light, edge, size = name.split("/")
+            if mine != what:
+                continue
+            over = time[f"scalar/{light}/{edge}/{size}"] / time[name]
+            ratios[f"raster.{light}.{edge}.lanes_over_scalar{suffix}"] = over
+            logs.append(math.log(over))
+        if logs:
+            ratios[f"raster.lanes_over_scalar{suffix}"] = math.exp(sum(logs) / len(logs))
+            ratios[f"raster.mtris_per_s{suffix}"] = rate[f"{what}/sun/e2/1024"] / 1e6
     return ratios
 
 
@@ -99,18 +130,18 @@ def threads(path):
             for what in ("filter", "sparse", "receive")}
 
 
+MEASURED = {"filter": filters, "receive": receives, "sparse": sparses, "grid": grids, "pipeline": pipelines, "threads": threads,
+            "raster": rasters}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("filter")
-    parser.add_argument("receive")
-    others = {"sparse": sparses, "grid": grids, "pipeline": pipelines, "threads": threads}
-    for name in others:
-        parser.add_argument(f"--{name}")
+    parser.add_argument("folder", type=pathlib.Path, help="where bench/run left NAME.json of each bench")
     parser.add_argument("--summary", type=pathlib.Path)
     given = parser.parse_args()
-    ratios = filters(medians(given.filter)) | receives(medians(given.receive))
-    for name, ratios_of in others.items():
-        if path := getattr(given, name):
+    ratios = {}
+    for name, ratios_of in MEASURED.items():
+        if (path := given.folder / f"{name}.json").exists():
             ratios |= ratios_of(path)
     for name, ratio in sorted(ratios.items()):
         print(f"{name:44}{ratio:8.2f}")

@@ -2,16 +2,28 @@
 //
 // Of an inline function that two files share the linker keeps one copy, whichever. Were one file compiled with -mavx2 and the other
 // for any processor, the program could die on one without AVX2, or round differently from what a file was compiled for. So code of
-// different flags has different names, gnomon::x86_sse2 and gnomon::x86_avx2_fma, and one program may hold both. A gnomon type that
+// different flags has different names, gnomon::x86_sse2 and gnomon::x86_v3, and one program may hold both. A gnomon type that
 // crosses from one to the other is an undefined reference when the program is linked; pass plain numbers and pointers there.
 //
 // Named is what x86 and ARM compilers use by themselves once they are allowed to. Flags that no macro tells of are not.
 #pragma once
 
 // clang-format off
-// The widest registers.
-#if defined(__AVX512F__)
+// A level of the x86-64 ABI, or the widest registers.
+#if defined(__AVX2__) && defined(__FMA__) && defined(__F16C__) && defined(__POPCNT__) && defined(__LZCNT__) && defined(__BMI__) && \
+    defined(__BMI2__) && defined(__MOVBE__)
+#define GNOMON_BUILD_V3 1
+#endif
+#if defined(GNOMON_BUILD_V3) && defined(__AVX512F__) && defined(__AVX512CD__) && defined(__AVX512DQ__) && defined(__AVX512BW__) && \
+    defined(__AVX512VL__)
+#define GNOMON_BUILD_V4 1
+#endif
+#if defined(GNOMON_BUILD_V4)
+#define GNOMON_BUILD_LANES x86_v4
+#elif defined(__AVX512F__)
 #define GNOMON_BUILD_LANES x86_avx512
+#elif defined(GNOMON_BUILD_V3)
+#define GNOMON_BUILD_LANES x86_v3
 #elif defined(__AVX2__)
 #define GNOMON_BUILD_LANES x86_avx2
 #elif defined(__AVX__)
@@ -35,6 +47,8 @@
 #endif
 
 // What else is allowed. It is written down here, once: within a #pragma GCC target the compiler's macros change.
+// First what a level has in its name:
+#if !defined(GNOMON_BUILD_V3) || (defined(__AVX512F__) && !defined(GNOMON_BUILD_V4))
 #ifdef __FMA__
 #define GNOMON_HAS_FMA 1
 #endif
@@ -68,6 +82,7 @@
 #ifdef __AVX512VL__
 #define GNOMON_HAS_AVX512VL 1
 #endif
+#endif // and what none of them has
 #ifdef __AVX512VNNI__
 #define GNOMON_HAS_AVX512VNNI 1
 #endif

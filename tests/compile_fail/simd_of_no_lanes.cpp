@@ -1,4 +1,4 @@
-// expect: gnomon: simd<Isa> takes sse2, avx2, avx512, emulated<Bytes> or lanes of your own
+// expect: gnomon: simd<Isa> takes sse2, avx2, avx512, neon, wasm128, emulated<Bytes> or lanes of your own
 #include <gnomon/backend/simd.hpp>
 
 struct widest {}; // has none of the operations

@@ -81,7 +81,7 @@ TEST_CASE("fast, sixteen bits are at most one code from the convolution, and tha
 TEST_CASE_TEMPLATE("fast, a float is within its roundings of the convolution, and farther from it than an exact sum would be",
                    Texel, rg32f, rgba32f) {
     dice roll(704);
-    constexpr float each = Texel::channel_type::rounding.relative;
+    constexpr long double each = static_cast<long double>(Texel::channel_type::rounding.relative);
     const auto try_kernel = [&]<typename Kernel>() {
         const auto from = test::noise<Texel>(roll, {41, 37}, 2);
         const auto to = test::dense<fast<Kernel>>(from);

@@ -19,12 +19,13 @@
 
 namespace golden {
 
-// The parts, one for each folder of include/gnomon.
+// The parts, one for each folder of include/gnomon, and one for the lanes of backend/.
 void print_texel();
 void print_filter();
 void print_receive();
 void print_grid();
 void print_facade();
+void print_lanes();
 void print_geometry();
 
 /// A type, and its name in golden.txt.

@@ -7,5 +7,6 @@ int main() {
     golden::print_receive();
     golden::print_grid();
     golden::print_facade();
+    golden::print_lanes();
     golden::print_geometry();
 }

@@ -4,7 +4,7 @@
 # the lines that are equal. Its note is what tests/golden/canary.cpp finds that the compiler does to numbers, with the same flags.
 # tests/golden/geometry.cpp alone is compiled with -ffp-contract=off, and says why. Below the compilers come rows of another kind.
 golden=$root/tests/golden
-golden_parts=(texel facade filter receive geometry grid main)
+golden_parts=(texel facade filter receive geometry grid lanes main)
 
 # name | what it adds | packages | what this processor must have | compiler and flags | what runs the program
 toolchain_rows() {
@@ -240,7 +240,7 @@ row_tests_s390x() { test_row "$1" s390x-linux-gnu-g++ g++-s390x-linux-gnu qemu-s
 
 # test_row NAME COMPILER PACKAGE QEMU LIBRARIES: passed and failed are test cases. Those of millions of pairs take minutes.
 test_row() {
-    local began=$SECONDS name=$1 compiler=$2 run=("$4" -L "$5") folders=(texel filter receive) file count
+    local began=$SECONDS name=$1 compiler=$2 run=("$4" -L "$5") folders=(texel filter receive simd backend) file count
     can_run "$name" '' "$compiler" "$3" qemu-user doctest-dev || return 0
     mkdir -p "$work/$name"
     for file in main "${folders[@]/%//*}"; do printf '%s\n' "$root"/tests/$file.cpp; done |

@@ -44,8 +44,10 @@ template <typename Texel, int... Radii> std::vector<filter<Texel>> filters(std::
 template <typename Texel, typename Nearest, typename Farthest>
 void try_map(const filter<Texel>& f, const image<Texel>& map, const Nearest& nearest, const Farthest& farthest, sweep& wrong) {
     const std::pair<image<Texel>, int> results[] = {{f.filtered(map), f.roundings}, {test::twice_rounded(map, f.kernel), 2}};
-    for (const auto& [filtered, roundings] : results)
-        test::for_each_texel(whole(map.size()), [&, &filtered = filtered, roundings = roundings](int x, int y) {
+    for (const auto& result : results)
+        test::for_each_texel(whole(map.size()), [&](int x, int y) {
+            const auto& filtered = result.first;
+            const int roundings = result.second;
             const Texel& texel = filtered(x, y);
             if (!texel.occupied()) return;
             const auto shadowed = [&](float z, bias_towards towards) {

@@ -21,17 +21,28 @@ struct memory {
 
 /// The comparisons of one set of lanes; each counts wrong answers.
 struct checks_of {
+    int float_lanes;
     int double_lanes;
     int (*ints)(const memory*);
+    int (*words)(const memory*);
+    int (*longs)(const memory*);
     int (*doubles)(const double*);
     int (*products)(const double*, const double*);
     int (*floats)(const float*);
+    int (*whole)(const float*);
+    int (*blends)(int);
     int (*fractions8)(const std::uint8_t*);
     int (*fractions16)(const std::uint16_t*);
+    int (*channels16)(const std::uint16_t*);
+    int (*channels_half)(const std::uint16_t*);
+    int (*channels_float)(const float*);
     int (*unorm8)(const std::uint8_t*, const double*);
     int (*unorm16)(const std::uint16_t*, const double*);
     int (*half16)(const std::uint16_t*, const double*);
     int (*float32)(const float*, const double*);
+    int (*comparisons)(const double*, const double*);
+    int (*casts8)(const std::uint8_t*, unsigned, const double*);
+    int (*casts16)(const std::uint16_t*, unsigned, const double*);
 };
 } // namespace
 
@@ -58,6 +69,10 @@ using gnomon::simd_isa;
 static_assert(simd_isa<gnomon::emulated<16>> && simd_isa<gnomon::emulated<64>> && !simd_isa<int> && !simd_isa<gnomon::half16>);
 #if GNOMON_X86
 static_assert(simd_isa<gnomon::sse2> && simd_isa<gnomon::avx2> && simd_isa<gnomon::avx512>);
+#elif GNOMON_NEON
+static_assert(simd_isa<gnomon::neon>);
+#elif GNOMON_WASM
+static_assert(simd_isa<gnomon::wasm128>);
 #endif
 
 /// Calls f(checks) for each target that this processor has.
@@ -66,6 +81,10 @@ template <typename F> void for_each_target(F&& f) {
     f(plain::all<gnomon::sse2>);
     if (gnomon::best_lanes() >= cpu_level::avx2) f(with_avx2::all<gnomon::avx2>);
     if (gnomon::best_lanes() >= cpu_level::avx512) f(with_avx512::all<gnomon::avx512>);
+#elif GNOMON_NEON
+    f(plain::all<gnomon::neon>);
+#elif GNOMON_WASM
+    f(plain::all<gnomon::wasm128>);
 #endif
     f(plain::all<gnomon::emulated<32>>); // the checks pass what is right
 }
@@ -80,7 +99,27 @@ TEST_CASE("operations on whole numbers give the bits of the emulated ones") {
             for (memory& each : m)
                 for (unsigned char& byte : each.byte)
                     byte = static_cast<unsigned char>(roll(0, 3) == 0 ? 128 * roll(0, 1) + 127 * roll(0, 1) : roll(0, 255));
-            wrong += target.ints(m);
+            wrong += target.ints(m) + target.longs(m);
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("operations on numbers of 16 bits give the results of the emulated ones, of equal numbers and neighbours too") {
+    test::dice roll(414);
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int n = 0; n < 4000; ++n) {
+            std::uint16_t words[4][32];
+            for (auto& row : words)
+                for (std::uint16_t& word : row) word = static_cast<std::uint16_t>(roll.one_in(4) ? -roll(0, 2) : roll(0, 65535));
+            for (int i = 0; i < 32; ++i) // the first pair has neighbours, and now and then one that is equal, as the second has
+                if (roll.one_in(2))
+                    words[1][i] = static_cast<std::uint16_t>(words[0][i] + (roll.one_in(16) ? 0 : 1 - 2 * roll(0, 1)));
+            if (roll.one_in(2)) words[3][roll(0, 31)] = words[2][0];
+            memory m[4];
+            for (int i = 0; i < 4; ++i) std::memcpy(m[i].byte, words[i], sizeof words[i]);
+            wrong += target.words(m);
         }
         CHECK(wrong == 0);
     });
@@ -111,19 +150,66 @@ TEST_CASE("arithmetic and comparisons of floats give the bits of the emulated on
                              std::numeric_limits<float>::infinity(),
                              -std::numeric_limits<float>::infinity(),
                              std::numeric_limits<float>::quiet_NaN(),
-                             3e38f};
+                             3e38f,
+                             0x1p31f,
+                             -0x1p31f,
+                             -3e38f,
+                             2147483520.0f};
     for_each_target([&](const checks_of& target) {
         int wrong = 0;
         for (int n = 0; n < 4000; ++n) {
             float numbers[48];
             for (int i = 0; i < 48; ++i) {
-                numbers[i] = roll.one_in(4) ? odd[roll(0, 7)] : std::ldexp(roll.unit() - 0.5f, roll(-20, 20));
+                numbers[i] = roll.one_in(4) ? odd[roll(0, 11)] : std::ldexp(roll.unit() - 0.5f, roll(-20, 20));
                 // The two sides of a difference that is nothing, or all but nothing: a whole number times a depth, and what it equals.
                 if (i < 32 || roll.one_in(2)) continue;
                 numbers[i - 32] = static_cast<float>(roll(1, 511));
                 numbers[i] = -numbers[i - 32] * numbers[i - 16];
             }
             wrong += target.floats(numbers);
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("products that are exact are added, and codes stored rounded down, whole ones and just below them") {
+    test::dice roll(415);
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int n = 0; n < 4000; ++n) {
+            float numbers[64];
+            for (int i = 0; i < 16; ++i) {
+                numbers[i] = static_cast<float>(roll(0, 4095));
+                numbers[16 + i] = static_cast<float>(roll(-4096, 4096));
+                for (const int row : {32, 48}) {
+                    const float whole = static_cast<float>(roll(0, row == 32 ? 255 : 65535));
+                    numbers[row + i] = whole + (roll.one_in(2) ? 0.0f : 0.9921875f);
+                }
+            }
+            wrong += target.whole(numbers);
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("every blend of bytes over its scale is rounded correctly") {
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int first = 0; first <= 255 * 65536; first += target.float_lanes) wrong += target.blends(first);
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("channels of pairs, and numbers that lie alone, are read as they are: any bits") {
+    test::dice roll(416);
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int n = 0; n < 4000; ++n) {
+            std::uint16_t words[64];
+            for (std::uint16_t& word : words) word = static_cast<std::uint16_t>(roll(0, 65535));
+            float floats[32];
+            std::memcpy(floats, words, sizeof words);
+            wrong += target.channels16(words) + target.channels_half(words) + target.channels_float(floats);
         }
         CHECK(wrong == 0);
     });
@@ -199,6 +285,50 @@ TEST_CASE("codes are stored rounded down, halves and floats to nearest: on, just
                      target.float32(floats, numbers);
             wrong +=
                 target.half16(words, halves + 8 - target.double_lanes) + target.float32(floats, numbers + 8 - target.double_lanes);
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("doubles are compared, truncated and stored as floats as the emulated ones are, for infinities, NaN and all between") {
+    test::dice roll(414);
+    constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double odd[] = {0.0, -0.0, 1.0, -1.0, infinity, -infinity, nan, 0x1p-1074};
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int n = 0; n < 4000; ++n) {
+            double numbers[16], fitting[8];
+            for (double& each : numbers)
+                each = roll.one_in(3) ? odd[roll(0, 7)]
+                                      : std::ldexp(static_cast<double>(roll.unit()) - 0.5 + roll(-9, 9) * 0x1p-40, roll(-140, 20));
+            for (double& each : fitting)
+                each =
+                    roll.one_in(3) ? roll(-5, 5) + roll(-1, 1) * 0x1p-50 : (static_cast<double>(roll.unit()) - 0.5) * 0x1.fffffp31;
+            wrong += target.comparisons(numbers, fitting);
+        }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("casters go onto pairs as the emulated lanes cast them: nearer ones, onto empty ones, where they are asked to, and not "
+          "beside") {
+    test::dice roll(415);
+    for_each_target([&](const checks_of& target) {
+        int wrong = 0;
+        for (int n = 0; n < 20000; ++n) {
+            std::uint8_t bytes[32];
+            std::uint16_t words[32];
+            double codes8[8], codes16[8];
+            const bool few = roll.one_in(2); // codes that are often equal
+            for (int i = 0; i < 32; ++i) {
+                const bool mask = i % 2 == 1 && roll.one_in(2);
+                bytes[i] = static_cast<std::uint8_t>(mask ? 255 * roll(0, 1) : few ? roll(0, 3) : roll(0, 255));
+                words[i] = static_cast<std::uint16_t>(mask ? 65535 * roll(0, 1) : few ? roll(0, 3) : roll(0, 65535));
+            }
+            for (double& each : codes8) each = (few ? roll(0, 3) : roll(0, 255)) + 0.999 * roll(0, 1);
+            for (double& each : codes16) each = (few ? roll(0, 3) : roll(0, 65535)) + 0.999 * roll(0, 1);
+            const auto where = static_cast<unsigned>(roll.one_in(3) ? 255 : roll(0, 255));
+            wrong += target.casts8(bytes, where, codes8) + target.casts16(words, where, codes16);
         }
         CHECK(wrong == 0);
     });

@@ -97,6 +97,50 @@ template <typename Isa> int wrong_ints(const memory* m) {
            wrong_fours<Isa>(m);
 }
 
+/// The same for numbers of 16 bits, which the dice make equal or all but equal often enough.
+template <typename Isa> int wrong_words(const memory* m) {
+    using same = gnomon::emulated<Isa::bytes>;
+    const auto a = Isa::load(m[0].byte), b = Isa::load(m[1].byte), c = Isa::load(m[2].byte), d = Isa::load(m[3].byte);
+    const auto e = same::load(m[0].byte), f = same::load(m[1].byte), g = same::load(m[2].byte), h = same::load(m[3].byte);
+    const auto a8 = Isa::template shift_right16<8>(a), b8 = Isa::template shift_right16<8>(b);
+    const auto e8 = same::template shift_right16<8>(e), f8 = same::template shift_right16<8>(f);
+    return differing<Isa>(Isa::either(a, b), same::either(e, f)) + differing<Isa>(Isa::subtract16(a, b), same::subtract16(e, f)) +
+           differing<Isa>(Isa::subtract_to_zero16(a, b), same::subtract_to_zero16(e, f)) +
+           differing<Isa>(Isa::multiply_low16(a, b), same::multiply_low16(e, f)) +
+           differing<Isa>(Isa::multiply_high16(a, b), same::multiply_high16(e, f)) +
+           differing<Isa>(Isa::template shift_left16<8>(a), same::template shift_left16<8>(e)) + differing<Isa>(a8, e8) +
+           differing<Isa>(Isa::template shift_right16<7>(a), same::template shift_right16<7>(e)) +
+           differing<Isa>(Isa::greater16(a, b), same::greater16(e, f)) +
+           differing<Isa>(Isa::upper_where_greater16(c, a, b), same::upper_where_greater16(g, e, f)) +
+           (Isa::any_equal16(a, b, c, d) != same::any_equal16(e, f, g, h)) +
+           differing<Isa>(Isa::narrow16(a8, b8), same::narrow16(e8, f8));
+}
+
+/// The same for whole numbers of 32 bits, among them places in `m` for a gather.
+template <typename Isa> int wrong_longs(const memory* m) {
+    using same = gnomon::emulated<Isa::bytes>;
+    const auto a = Isa::load(m[0].byte), b = Isa::load(m[1].byte);
+    const auto e = same::load(m[0].byte), f = same::load(m[1].byte);
+    memory places = m[2]; // -16 to 15 bytes from the middle
+    for (int i = 0; i < 16; ++i) {
+        const std::int32_t place = static_cast<std::int8_t>(places.byte[4 * i]) >> 3;
+        std::memcpy(places.byte + 4 * i, &place, sizeof place);
+    }
+    const auto* const middle = m[3].byte + 32;
+    const auto gathered = Isa::gather32(middle, Isa::load(places.byte));
+    float converted[16], expected[16];
+    Isa::store(converted, Isa::numbers(a));
+    same::store(expected, same::numbers(e));
+    return differing<Isa>(Isa::both(a, b), same::both(e, f)) + differing<Isa>(Isa::add32(a, b), same::add32(e, f)) +
+           differing<Isa>(Isa::subtract32(a, b), same::subtract32(e, f)) +
+           differing<Isa>(Isa::multiply32(a, b), same::multiply32(e, f)) +
+           differing<Isa>(Isa::lesser32(a, b), same::lesser32(e, f)) + differing<Isa>(Isa::greater32(a, b), same::greater32(e, f)) +
+           differing<Isa>(Isa::template shift_left32<5>(a), same::template shift_left32<5>(e)) +
+           differing<Isa>(Isa::template shift_right32<9>(a), same::template shift_right32<9>(e)) +
+           differing<Isa>(gathered, same::gather32(middle, same::load(places.byte))) +
+           (std::memcmp(converted, expected, static_cast<std::size_t>(Isa::bytes)) != 0);
+}
+
 /// The same for arithmetic and comparisons of floats, any of which may be none: what is left of a NaN may be any NaN.
 template <typename Isa> int wrong_floats(const float* number) {
     using same = gnomon::emulated<Isa::bytes>;
@@ -121,7 +165,53 @@ template <typename Isa> int wrong_floats(const float* number) {
            !equal(Isa::keep(Isa::not_greater(a, b), one), same::keep(same::not_greater(e, f), unit)) +
            !equal(Isa::keep(Isa::both(Isa::greater(a, b), Isa::greater(a, c)), one),
                   same::keep(same::both(same::greater(e, f), same::greater(e, g)), unit)) +
-           !equal(Isa::keep(Isa::positive(a, b, c), one), same::keep(same::positive(e, f, g), unit));
+           !equal(Isa::keep(Isa::positive(a, b, c), one), same::keep(same::positive(e, f, g), unit)) +
+           !equal(Isa::multiply(a, b), same::multiply(e, f)) + differing<Isa>(Isa::floor32(a), same::floor32(e)) +
+           (Isa::any(Isa::greater(a, b)) != same::any(same::greater(e, f)));
+}
+
+/// sum + a b, where the product is exact; and whole codes stored from numbers with a fraction, and nothing beyond them.
+template <typename Isa> int wrong_whole(const float* number) {
+    using same = gnomon::emulated<Isa::bytes>;
+    const auto a = Isa::load(number), b = Isa::load(number + 16), c = Isa::load(number + 32), d = Isa::load(number + 48);
+    const auto e = same::load(number), f = same::load(number + 16), g = same::load(number + 32), h = same::load(number + 48);
+    float sum[16], expected[16];
+    Isa::store(sum, Isa::add_product(c, a, b));
+    same::store(expected, same::add_product(g, e, f));
+    std::uint8_t bytes[17]{}, expected_bytes[17]{};
+    std::uint16_t words[17]{}, expected_words[17]{};
+    Isa::template store_codes<gnomon::unorm8>(bytes, c);
+    same::template store_codes<gnomon::unorm8>(expected_bytes, g);
+    Isa::template store_codes<gnomon::unorm16>(words, d);
+    same::template store_codes<gnomon::unorm16>(expected_words, h);
+    return (std::memcmp(sum, expected, static_cast<std::size_t>(Isa::bytes)) != 0) +
+           (std::memcmp(bytes, expected_bytes, sizeof bytes) != 0) + (std::memcmp(words, expected_words, sizeof words) != 0);
+}
+
+/// `float_lanes` whole numbers from `first` on over 255 times a power of two.
+template <typename Isa> int wrong_blends(int first) {
+    float number[16], quotient[16];
+    for (int i = 0; i < Isa::float_lanes; ++i) number[i] = static_cast<float>(first + i);
+    Isa::store(quotient, Isa::fraction(Isa::load(number), 255.0f * 65536.0f));
+    int n = 0;
+    for (int i = 0; i < Isa::float_lanes; ++i) n += !gnomon::same(quotient[i], number[i] / (255.0f * 65536.0f));
+    return n;
+}
+
+/// Channels of pairs, and numbers that lie alone; NaN may be any NaN.
+template <typename Isa, typename Channel> int wrong_channels(const typename Channel::storage* stored) {
+    using same = gnomon::emulated<Isa::bytes>;
+    const auto differ = [&](const typename Isa::floats& mine, const typename same::floats& theirs) {
+        float a[16], b[16];
+        Isa::store(a, mine);
+        same::store(b, theirs);
+        for (int i = 0; i < Isa::float_lanes; ++i)
+            if (std::memcmp(&a[i], &b[i], sizeof(float)) != 0 && !(std::isnan(a[i]) && std::isnan(b[i]))) return true;
+        return false;
+    };
+    return differ(Isa::template codes_of<Channel, 1>(stored, 0), same::template codes_of<Channel, 1>(stored, 0)) +
+           differ(Isa::template codes_of<Channel, 2>(stored, 0), same::template codes_of<Channel, 2>(stored, 0)) +
+           differ(Isa::template codes_of<Channel, 2>(stored, 1), same::template codes_of<Channel, 2>(stored, 1));
 }
 
 /// Fractions of 255 and 65535 as numbers that are read from texels of two, three and four channels.
@@ -153,6 +243,44 @@ template <typename Isa> int wrong_doubles(const double* number) {
                           same::add_and_mask(e, 1 << 16, ~std::uint64_t{0x1FFFF}));
 }
 
+/// The same for comparisons of doubles, any of which may be none; and truncation, of those that fit 32 bits.
+template <typename Isa> int wrong_comparisons(const double* number, const double* fitting) {
+    using same = gnomon::emulated<Isa::bytes>;
+    const auto equal = [](const typename Isa::doubles& mine, const typename same::doubles& theirs) {
+        double a[8], b[8];
+        Isa::store(a, mine);
+        same::store(b, theirs);
+        for (int i = 0; i < Isa::double_lanes; ++i)
+            if (std::memcmp(&a[i], &b[i], sizeof(double)) != 0 && !(std::isnan(a[i]) && std::isnan(b[i]))) return false;
+        return true;
+    };
+    const auto a = Isa::load(number), b = Isa::load(number + 8);
+    const auto e = same::load(number), f = same::load(number + 8);
+    auto kept = a;
+    Isa::settle(kept);
+    float stored[9]{}, expected[9]{};
+    const auto rounded = Isa::store_floats(stored, a);
+    const auto nearest = same::store_floats(expected, e);
+    int n = !equal(rounded, nearest) + !equal(kept, e);
+    for (int i = 0; i < 9; ++i) n += std::memcmp(&stored[i], &expected[i], sizeof(float)) != 0 && !std::isnan(expected[i]);
+    return n + !equal(Isa::subtract(a, b), same::subtract(e, f)) + !equal(Isa::smaller(a, b), same::smaller(e, f)) +
+           !equal(Isa::larger(a, b), same::larger(e, f)) + (Isa::greater_bits(a, b) != same::greater_bits(e, f)) +
+           !equal(Isa::truncate(Isa::load(fitting)), same::truncate(same::load(fitting)));
+}
+
+/// Casts onto pairs in the middle of memory, where it must stay.
+template <typename Isa, gnomon::channel Channel>
+int wrong_casts(const typename Channel::storage* pairs, unsigned where, const double* codes) {
+    using same = gnomon::emulated<Isa::bytes>;
+    typename Channel::storage mine[32], theirs[32];
+    std::memcpy(mine, pairs, sizeof mine);
+    std::memcpy(theirs, pairs, sizeof theirs);
+    where &= (1u << Isa::double_lanes) - 1;
+    Isa::template cast_pairs<Channel>(mine + 6, where, Isa::load(codes));
+    same::template cast_pairs<Channel>(theirs + 6, where, same::load(codes));
+    return std::memcmp(mine, theirs, sizeof mine) != 0;
+}
+
 /// sum + a b, where the product is exact.
 template <typename Isa> int wrong_products(const double* sums, const double* whole) {
     using same = gnomon::emulated<Isa::bytes>;
@@ -175,10 +303,10 @@ int wrong_codes_in_floats(const typename Channel::storage* stored, const double*
     same::store(theirs, same::template codes_of<Channel, 1>(codes, 0));
     int n = 0;
     for (int i = 0; i < Isa::float_lanes; ++i) n += !same_or_none(mine[i], theirs[i]);
-    for (const float beyond : {-INFINITY, 0.0f, INFINITY}) {
+    for (const int beyond : {-1, 0, 1}) {
         for (int i = 0; i < 16; ++i) {
             const auto f = static_cast<float>(number[i % Isa::double_lanes]);
-            mine[i] = beyond == 0.0f ? f : std::nextafter(f, beyond);
+            mine[i] = beyond == 0 ? f : std::nextafter(f, beyond < 0 ? -INFINITY : INFINITY);
         }
         Isa::template store_codes<Channel>(written, Isa::load(mine));
         same::template store_codes<Channel>(expected, same::load(mine));
@@ -208,16 +336,27 @@ template <typename Isa, gnomon::channel Channel> int wrong_codes(const typename 
 }
 
 template <typename Isa>
-inline constexpr checks_of all{Isa::double_lanes,
+inline constexpr checks_of all{Isa::float_lanes,
+                               Isa::double_lanes,
                                wrong_ints<Isa>,
+                               wrong_words<Isa>,
+                               wrong_longs<Isa>,
                                wrong_doubles<Isa>,
                                wrong_products<Isa>,
                                wrong_floats<Isa>,
+                               wrong_whole<Isa>,
+                               wrong_blends<Isa>,
                                wrong_fractions<Isa, gnomon::unorm8>,
                                wrong_fractions<Isa, gnomon::unorm16>,
+                               wrong_channels<Isa, gnomon::unorm16>,
+                               wrong_channels<Isa, gnomon::half16>,
+                               wrong_channels<Isa, gnomon::float32>,
                                wrong_codes<Isa, gnomon::unorm8>,
                                wrong_codes<Isa, gnomon::unorm16>,
                                wrong_codes<Isa, gnomon::half16>,
-                               wrong_codes<Isa, gnomon::float32>};
+                               wrong_codes<Isa, gnomon::float32>,
+                               wrong_comparisons<Isa>,
+                               wrong_casts<Isa, gnomon::unorm8>,
+                               wrong_casts<Isa, gnomon::unorm16>};
 
 } // namespace CHECKS_ON

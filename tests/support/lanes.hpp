@@ -15,6 +15,10 @@ template <typename F> void for_each_isa(F&& f) {
     f.template operator()<gnomon::sse2>();
     if (gnomon::best_lanes() >= gnomon::cpu_level::avx2) f.template operator()<gnomon::avx2>();
     if (gnomon::best_lanes() >= gnomon::cpu_level::avx512) f.template operator()<gnomon::avx512>();
+#elif GNOMON_NEON
+    f.template operator()<gnomon::neon>();
+#elif GNOMON_WASM
+    f.template operator()<gnomon::wasm128>();
 #endif
 }
 

@@ -40,12 +40,22 @@ void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> fr
     filter(run, from, to, tiles.tiles(), scratch);
 }
 
-/// Receivers one to one on texels: receive(simd<>{}, soft.row_span(y), depths, intensities). See receive/receive.hpp.
-template <typename Backend, texel_row Row>
+/// Receivers one to one on texels: receive(simd<>{}, soft.row_span(y), depths, intensities). See receive/receive.hpp. Depths in codes
+/// and intensities in codes are for backends that take them, as gnomon's do; a concept of a backend asks for floats alone.
+template <typename Backend, texel_row Row, depth_row Depths, intensity_row Intensities>
     requires backend_for<Backend, texel_in<Row>, box<0>>
-void receive(const Backend& run, const Row& texels, strided_span<const float> z, strided_span<float> intensity,
-             const rule& r = {}) noexcept {
-    run.receive(strided_span<const texel_in<Row>>(strided_span(texels)), z, intensity, r);
+void receive(const Backend& run, const Row& texels, const Depths& z, Intensities&& intensity, const rule& r = {}) noexcept {
+    run.receive(strided_span<const texel_in<Row>>(strided_span(texels)),
+                strided_span<const std::remove_const_t<element_in<const Depths>>>(strided_span(z)), strided_span(intensity), r);
+}
+
+/// Receivers anywhere: receive(simd<>{}, soft, x, y, depths, intensities), x and y in texels.
+template <typename Backend, typename T, depth_row Depths, intensity_row Intensities>
+    requires backend_for<Backend, std::remove_const_t<T>, box<0>>
+void receive(const Backend& run, image_view<T> map, strided_span<const float> x, strided_span<const float> y, const Depths& z,
+             Intensities&& intensity, const rule& r = {}) noexcept {
+    run.receive(image_view<const std::remove_const_t<T>>(map), x, y,
+                strided_span<const std::remove_const_t<element_in<const Depths>>>(strided_span(z)), strided_span(intensity), r);
 }
 
 } // namespace gnomon::inline GNOMON_BUILD

@@ -12,14 +12,14 @@ struct scalar {
                        filter_scratch<Texel, Kernel>& scratch) const noexcept {
         gnomon::filter_region(from, to, region, scratch);
     }
-    template <texel_format Texel>
-    void receive(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+    template <texel_format Texel, depth_number Depth, intensity_number Intensity>
+    void receive(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
                  const rule& r) const noexcept {
         gnomon::receive(texels, z, intensity, r);
     }
-    template <texel_format Texel>
-    void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
-                 strided_span<float> intensity, const rule& r) const noexcept {
+    template <texel_format Texel, depth_number Depth, intensity_number Intensity>
+    void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const Depth> z,
+                 strided_span<Intensity> intensity, const rule& r) const noexcept {
         gnomon::receive(map, x, y, z, intensity, r);
     }
 };

@@ -41,7 +41,8 @@ concept channel_of_lanes = std::same_as<Channel, unorm8> || std::same_as<Channel
                            std::same_as<Channel, float32>;
 
 /// Does this build have these lanes?
-template <typename Isa> inline constexpr bool has_lanes = GNOMON_X86 != 0 || !std::same_as<Isa, best_isa>;
+template <typename Isa>
+inline constexpr bool has_lanes = GNOMON_X86 + GNOMON_NEON + GNOMON_WASM > 0 || !std::same_as<Isa, best_isa>;
 
 #if GNOMON_X86
 /// Each target's code goes by its own name.
@@ -54,8 +55,8 @@ bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect re
     else
         return on_any::filter<Isa, Kernel, Texel>(from, to, region);
 }
-template <typename Isa, texel_format Texel>
-void receive_on(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+void receive_on(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
                 const rule& r) noexcept {
     if constexpr (std::same_as<Isa, avx512>)
         on_avx512::receive_row<avx512>(texels, z, intensity, r);
@@ -63,6 +64,16 @@ void receive_on(strided_span<const Texel> texels, strided_span<const float> z, s
         on_avx2::receive_row<avx2>(texels, z, intensity, r);
     else
         on_any::receive_row<Isa>(texels, z, intensity, r);
+}
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+bool receive_points_on(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
+                       strided_span<const Depth> z, strided_span<Intensity> intensity, const rule& r) noexcept {
+    if constexpr (std::same_as<Isa, avx512>)
+        return on_avx512::receive_points<avx512>(map, x, y, z, intensity, r);
+    else if constexpr (std::same_as<Isa, avx2>)
+        return on_avx2::receive_points<avx2>(map, x, y, z, intensity, r);
+    else
+        return on_any::receive_points<Isa>(map, x, y, z, intensity, r);
 }
 
 /// Calls f.template operator()<Isa>() with the lanes of a level.
@@ -76,13 +87,25 @@ template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
     return on_any::filter<Isa, Kernel, Texel>(from, to, region);
 }
-template <typename Isa, texel_format Texel>
-void receive_on(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+void receive_on(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
                 const rule& r) noexcept {
     on_any::receive_row<Isa>(texels, z, intensity, r);
 }
-/// No lanes are known of this processor: has_lanes<best_isa> is false, and nobody asks.
-template <typename F> auto with_lanes(cpu_level, F&& f) noexcept { return f.template operator()<emulated<16>>(); }
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+bool receive_points_on(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
+                       strided_span<const Depth> z, strided_span<Intensity> intensity, const rule& r) noexcept {
+    return on_any::receive_points<Isa>(map, x, y, z, intensity, r);
+}
+
+#if GNOMON_NEON
+using only_lanes = neon;
+#elif GNOMON_WASM
+using only_lanes = wasm128;
+#else // none are known of this processor: has_lanes<best_isa> is false, and nobody asks
+using only_lanes = emulated<16>;
+#endif
+template <typename F> auto with_lanes(cpu_level, F&& f) noexcept { return f.template operator()<only_lanes>(); }
 #endif
 
 } // namespace detail
@@ -95,8 +118,8 @@ template <typename F> auto with_lanes(cpu_level, F&& f) noexcept { return f.temp
 /// \pre the processor has the lanes that are named: ask best_lanes(). simd<> has no such condition.
 template <typename Isa = best_isa> struct simd {
     static_assert(std::same_as<Isa, best_isa> || simd_isa<Isa>,
-                  "gnomon: simd<Isa> takes sse2, avx2, avx512, emulated<Bytes> or lanes of your own that model simd_isa; simd<> "
-                  "takes the best there are");
+                  "gnomon: simd<Isa> takes sse2, avx2, avx512, neon, wasm128, emulated<Bytes> or lanes of your own that model "
+                  "simd_isa; simd<> takes the best there are");
 
     template <texel_format Texel, kernel Kernel>
     void filter_region(std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, texel_rect region,
@@ -110,18 +133,21 @@ template <typename Isa = best_isa> struct simd {
         }
         gnomon::filter_region(from, to, region, scratch);
     }
-    template <texel_format Texel>
-    void receive(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+    template <texel_format Texel, depth_number Depth, intensity_number Intensity>
+    void receive(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
                  const rule& r) const noexcept {
         if constexpr (detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
-                      on_any::decided_in_lanes<Texel>)
+                      on_any::decided_in_lanes<Texel, Depth, Intensity>)
             call([&]<typename Lanes>() { detail::receive_on<Lanes>(texels, z, intensity, r); });
         else
             gnomon::receive(texels, z, intensity, r);
     }
-    template <texel_format Texel>
-    void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
-                 strided_span<float> intensity, const rule& r) const noexcept {
+    template <texel_format Texel, depth_number Depth, intensity_number Intensity>
+    void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const Depth> z,
+                 strided_span<Intensity> intensity, const rule& r) const noexcept {
+        if constexpr (detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
+                      on_any::blended_in_lanes<Texel, Depth, Intensity>)
+            if (call([&]<typename Lanes>() { return detail::receive_points_on<Lanes>(map, x, y, z, intensity, r); })) return;
         gnomon::receive(map, x, y, z, intensity, r);
     }
 

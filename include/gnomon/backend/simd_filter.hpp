@@ -8,6 +8,7 @@
 #include <gnomon/simd/region.hpp>
 
 #include <array>
+#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -104,7 +105,7 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
             // a quarter of 1/whole is more than the product can be wrong by, for every total there is.
             constexpr double half = static_cast<double>(by::whole / 2) + 0.25;
             sum = Isa::multiply(Isa::add(sum, Isa::repeat(half)), Isa::repeat(1.0 / whole));
-        } else if constexpr (by::whole != 1.0) {
+        } else if constexpr (!by::in_floats || !std::has_single_bit(static_cast<unsigned>(by::weights_of::total))) {
             sum = Isa::divide(sum, Isa::repeat(whole));
         }
         Isa::template store_codes<channel_type>(to, sum);

@@ -6,14 +6,15 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
-/// What lanes decide themselves: whole codes of premultiplied pairs that no receiver bounds.
+/// Whole codes of premultiplied pairs that no receiver bounds: what lanes can decide exactly.
 template <texel_format Texel>
-inline constexpr bool decided_in_lanes =
+inline constexpr bool pairs_of_codes =
     Texel::channel_type::whole_codes && !Texel::effects.far_bound && std::same_as<typename Texel::representation_type, depth_mask>;
 
 /// One register of receivers at a time. A receiver is shadowed iff e > m (1-z), see receive/decide.hpp; here it is m z + (e-m) > 0.
@@ -38,40 +39,290 @@ template <typename Isa, texel_format Texel> struct decision {
         return Isa::template codes_of<channel_type, Texel::channels>(texels, index);
     }
 
-    void operator()(const storage* texels, const float* depths, float* intensities) const noexcept {
+    GNOMON_LANES_VOID void one(const decision& by, const storage* texels, const float* depths, float* intensities) noexcept {
         const floats zero = Isa::repeat(0.0f), depth = Isa::load(depths);
-        const floats mask = codes(texels, Texel::mask_index), biased_mask = Isa::add(mask, m);
-        const floats rest = Isa::subtract(Isa::add(codes(texels, Texel::depth_index), e), biased_mask);
+        const floats mask = codes(texels, Texel::mask_index), biased_mask = Isa::add(mask, by.m);
+        const floats rest = Isa::subtract(Isa::add(codes(texels, Texel::depth_index), by.e), biased_mask);
         // Doubled they are whole, and times the least depth there is still something.
-        auto shadowed = Isa::positive(Isa::add(biased_mask, biased_mask), Isa::add(depth, z), Isa::add(rest, rest));
+        auto shadowed = Isa::positive(Isa::add(biased_mask, biased_mask), Isa::add(depth, by.z), Isa::add(rest, rest));
         shadowed = Isa::both(Isa::both(shadowed, Isa::greater(depth, zero)),
-                             Isa::both(Isa::greater(mask, zero), Isa::not_greater(depth, farthest)));
+                             Isa::both(Isa::greater(mask, zero), Isa::not_greater(depth, by.farthest)));
         floats darkness = mask;
         if constexpr (Texel::effects.translucency) darkness = codes(texels, Texel::contribution_index);
         Isa::store(intensities, Isa::keep(shadowed, Isa::fraction(darkness, channel_type::scale)));
     }
+    GNOMON_LANES_VOID void rows(const decision& by, const storage* texels, const float* depths, float* intensities,
+                                int count) noexcept {
+        for (int i = 0; i < count; i += step) one(by, texels + i * Texel::channels, depths + i, intensities + i);
+    }
 };
+
+/// Pairs of bytes, depths of 16 bits, results of 8: a register of results at a time, in whole numbers of 16 bits.
+///
+/// In half codes a pair is e = 2E - k and m = 2M + k, with k the roundings towards the light; z is Z, already moved, and R = 65535 - Z.
+/// A receiver is shadowed iff 65535 e > m R, see receive/decide.hpp; that is, iff m Z > 65535 f with f = m - e = 2 (M-E+k).
+template <typename Isa, texel_format Texel> struct byte_decision {
+    using ints = typename Isa::ints;
+    static constexpr int step = Isa::bytes;
+
+    ints nearer, farther;      ///< codes by which z is moved
+    ints last;                 ///< beyond is behind every caster
+    ints depth_up, depth_down; ///< half codes by which the pair is moved
+    ints mask_up, mask_down;
+    bool one_rounding_towards_light; ///< k = 1, and z not moved away: the rule that is nearly always meant
+
+    [[nodiscard]] static byte_decision of(const rule& r) noexcept {
+        const int codes = codes_towards_light<Texel>(r.caster);
+        const bool light = r.caster.towards == bias_towards::light, shadow = r.caster.towards == bias_towards::shadow;
+        const int k = r.caster.roundings;
+        return {words(codes > 0, codes),
+                words(codes < 0, -codes),
+                words(true, depth16::last + lesser(codes, 0)),
+                words(shadow, k),
+                words(light, k),
+                words(light, k),
+                words(shadow, k),
+                light && k == 1 && codes >= 0};
+    }
+
+    GNOMON_LANES ints words(bool on, int n) noexcept { return Isa::repeat32(on ? static_cast<std::uint32_t>(n) * 0x10001u : 0u); }
+
+    /// k = 1. The high half of 128 m Z, h, against 128 f = 256 (M-E) + 256:
+    ///     h >= 128 f       128 m Z >= 65536 * 128 f > 65535 * 128 f     shadowed
+    ///     h <= 128 f - 2   128 m Z < 65536 (128 f - 1) <= 65535 * 128 f, for 128 f <= 65536     lit
+    /// What is left, h = 128 f - 1, is unsure; so is h = 0 where E > M and the difference counts as nothing, since there every Z that
+    /// is not 0 is shadowed. One receiver in 10,000, unless all lie where their shadow begins.
+    GNOMON_LANES bool quick(const ints& moved, const std::uint8_t* texels, const std::uint16_t* depths, std::uint8_t* to) noexcept {
+        const ints low = Isa::repeat32(0x00FF00FF), half = Isa::repeat32(0x007F007F);
+        ints high[2], last[2], shade[2];
+        GNOMON_UNROLL(2)
+        for (int i = 0; i < 2; ++i) {
+            const ints pairs = Isa::load(texels + i * Isa::bytes), filled = Isa::either(pairs, low); // 256 M + 255
+            const ints z = Isa::subtract_to_zero16(Isa::load(depths + i * (Isa::bytes / 2)), moved);
+            high[i] = Isa::multiply_high16(Isa::subtract16(filled, half), z);
+            last[i] = Isa::subtract_to_zero16(filled, Isa::template shift_left16<8>(pairs));
+            shade[i] = Isa::upper_where_greater16(pairs, high[i], last[i]);
+        }
+        if (Isa::any_equal16(high[0], last[0], high[1], last[1])) return false;
+        Isa::store(to, Isa::narrow16(shade[0], shade[1]));
+        return true;
+    }
+
+    /// Any rule: 65536 e > m R + e, so iff the high half of m R + e is less than e. What a bias moves beyond nothing is nothing.
+    GNOMON_LANES ints exact(const ints& pairs, const ints& depths, const byte_decision& by) noexcept {
+        const ints ones = Isa::repeat32(0xFFFFFFFF);
+        const ints nearer = Isa::subtract_to_zero16(depths, by.nearer);
+        const ints rest = Isa::subtract_to_zero16(Isa::exclusive_or(nearer, ones), by.farther);
+        const ints mask = Isa::template shift_right16<8>(pairs);
+        const ints depth = Isa::template shift_right16<7>(Isa::template shift_left16<8>(pairs));
+        const ints m = Isa::subtract_to_zero16(Isa::add16(Isa::add16(mask, mask), by.mask_up), by.mask_down);
+        const ints e = Isa::subtract_to_zero16(Isa::add16(depth, by.depth_up), by.depth_down);
+        const ints carried = Isa::greater16(Isa::multiply_low16(m, rest), Isa::exclusive_or(e, ones));
+        const ints high = Isa::subtract16(Isa::multiply_high16(m, rest), carried);
+        const ints lit = Isa::exclusive_or(Isa::greater16(depths, by.nearer), ones); // z = 0, or moved there
+        return Isa::upper_where_greater16(pairs, Isa::either(e, Isa::greater16(depths, by.last)), Isa::either(high, lit));
+    }
+
+    static void slow(const byte_decision& by, const std::uint8_t* texels, const std::uint16_t* depths, std::uint8_t* to) noexcept {
+        const ints first = exact(Isa::load(texels), Isa::load(depths), by);
+        Isa::store(to, Isa::narrow16(first, exact(Isa::load(texels + Isa::bytes), Isa::load(depths + Isa::bytes / 2), by)));
+    }
+    GNOMON_LANES_VOID void rows(const byte_decision& by, const std::uint8_t* texels, const std::uint16_t* depths, std::uint8_t* to,
+                                int count) noexcept {
+        const ints moved = by.nearer;
+        const bool try_quick = by.one_rounding_towards_light;
+        for (int i = 0; i < count; i += step)
+            if (!try_quick || !quick(moved, texels + 2 * i, depths + i, to + i)) slow(by, texels + 2 * i, depths + i, to + i);
+    }
+};
+
+/// What decides for a texel, a depth and an intensity; void where the scalar loop does.
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct decision_for {
+    using type = void;
+};
+template <typename Isa, texel_format Texel>
+    requires pairs_of_codes<Texel>
+struct decision_for<Isa, Texel, float, float> {
+    using type = decision<Isa, Texel>;
+};
+template <typename Isa, texel_format Texel>
+    requires(pairs_of_codes<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, unorm8>)
+struct decision_for<Isa, Texel, std::uint16_t, std::uint8_t> {
+    using type = byte_decision<Isa, Texel>;
+};
+template <texel_format Texel, typename Depth, typename Intensity>
+inline constexpr bool decided_in_lanes = !std::same_as<typename decision_for<emulated<16>, Texel, Depth, Intensity>::type, void>;
 
 /// Receivers one to one on texels. Spans of any stride; what is not side by side, and the last few, go through a register's worth of
 /// memory.
-template <typename Isa, texel_format Texel>
-void receive_row(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+void receive_row(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
                  const rule& r) noexcept {
-    using one = decision<Isa, Texel>;
+    using one = typename decision_for<Isa, Texel, Depth, Intensity>::type;
     const auto decide = one::of(r);
     const int count = lesser(texels.size(), lesser(z.size(), intensity.size()));
     const bool side_by_side = texels.contiguous() && z.contiguous() && intensity.contiguous();
-    int i = 0;
-    if (side_by_side)
-        for (; i + one::step <= count; i += one::step) decide(texels[i].stored, &z[i], &intensity[i]);
-    for (; i < count; i += one::step) {
+    const int whole = side_by_side ? count - count % one::step : 0;
+    if (whole > 0) one::rows(decide, texels[0].stored, &z[0], &intensity[0], whole);
+    for (int i = whole; i < count; i += one::step) {
         const int some = lesser(one::step, count - i);
         Texel texel[static_cast<std::size_t>(one::step)]{};
-        float depth[static_cast<std::size_t>(one::step)]{}, made[static_cast<std::size_t>(one::step)];
+        Depth depth[static_cast<std::size_t>(one::step)]{};
+        Intensity made[static_cast<std::size_t>(one::step)];
         for (int k = 0; k < some; ++k) texel[k] = texels[i + k], depth[k] = z[i + k];
-        decide(texel->stored, depth, made);
+        one::rows(decide, texel->stored, depth, made, one::step);
         for (int k = 0; k < some; ++k) intensity[i + k] = made[k];
     }
+}
+
+/// One register of receivers anywhere on a map of pairs of bytes. Both texels of a row come in one gather of 32 bits; a blend is a whole
+/// number, the code times 65536, below 2^24 and so exact in float, as is all that is asked of it.
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct blended_decision {
+    using ints = typename Isa::ints;
+    using floats = typename Isa::floats;
+    using masks = typename Isa::masks;
+    static constexpr int step = Isa::float_lanes;
+    static constexpr float whole = 65536.0f; ///< the sum of the four weights
+
+    struct pair {
+        floats e, m;
+    };
+    /// Where a tap lies in one direction: its texel, and the weights of that and of the next.
+    struct taps {
+        ints texel, here, next;
+    };
+
+    const void* map;
+    ints last_column, last_row, stride; ///< the last texel that has a next one, and bytes from row to row
+    std::ptrdiff_t next_row;            ///< in bytes
+    floats e, m, z;                     ///< the bias: what pair and receiver are moved by
+    floats farthest;                    ///< float depths beyond are lit, codes beyond are behind every caster
+
+    /// Biases of one rounding keep the pair below 2^24. Offsets are of 32 bits, and a row has two texels for a gather.
+    [[nodiscard]] static bool serves(image_view<const Texel> map, const rule& r) noexcept {
+        constexpr int most = 1 << 21;
+        const std::ptrdiff_t row = map.stride() < 0 ? -map.stride() : map.stride();
+        return r.caster.roundings >= 0 && r.caster.roundings <= 1 && map.width() >= 2 && map.height() >= 2 && map.width() <= most &&
+               map.height() <= most && row <= 0x7FFFFFFF / map.height();
+    }
+    [[nodiscard]] static blended_decision of(image_view<const Texel> map, const rule& r) noexcept {
+        const biased moved = apply<Texel>(r.caster, 0.0, 0.0, 0.0f);
+        const int codes = codes_towards_light<Texel>(r.caster);
+        constexpr float nowhere = std::numeric_limits<float>::infinity();
+        constexpr bool whole_depth = std::same_as<Depth, std::uint16_t>;
+        const auto word = [](int n) { return static_cast<std::uint32_t>(n); };
+        return {map.data(),
+                Isa::repeat32(word(map.width() - 2)),
+                Isa::repeat32(word(map.height() - 2)),
+                Isa::repeat32(word(static_cast<int>(map.stride()))),
+                map.stride(),
+                Isa::repeat(static_cast<float>(moved.e) * whole),
+                Isa::repeat(static_cast<float>(moved.m) * whole),
+                Isa::repeat(whole_depth ? static_cast<float>(-codes) : moved.z),
+                Isa::repeat(whole_depth ? static_cast<float>(depth16::last) : (r.lit_beyond ? 1.0f : nowhere))};
+    }
+
+    /// A position in 1/256 texel, p = floor(256 x + 1/2) - 128 as `sample` has it, is p/256 texels right of the centre of texel 0. A
+    /// texel's weight is 256 less its distance, and nothing from 256 on: so weights fade out by themselves at the border, where the
+    /// two texels that are read are not those beside the position. (256 x is exact, and beyond 2^30 lies off every map.)
+    GNOMON_LANES taps place(const float* position, const ints& last) noexcept {
+        const ints none = Isa::repeat32(0), one = Isa::repeat32(256);
+        const ints doubled = Isa::floor32(Isa::multiply(Isa::load(position), Isa::repeat(512.0f)));
+        const ints p = Isa::subtract32(Isa::template shift_right32<1>(Isa::add32(doubled, Isa::repeat32(1))), Isa::repeat32(128));
+        const ints texel = Isa::greater32(Isa::lesser32(Isa::template shift_right32<8>(p), last), none);
+        const ints right = Isa::subtract32(p, Isa::template shift_left32<8>(texel)); // of the texel
+        const ints here = Isa::lesser32(Isa::subtract32(one, right), Isa::add32(one, right));
+        const ints next = Isa::lesser32(right, Isa::subtract32(Isa::repeat32(512), right));
+        return {texel, Isa::greater32(here, none), Isa::greater32(next, none)};
+    }
+
+    GNOMON_LANES pair blend(const blended_decision& by, const float* x, const float* y) noexcept {
+        const taps across = place(x, by.last_column), down = place(y, by.last_row);
+        const ints at = Isa::add32(Isa::multiply32(down.texel, by.stride), Isa::template shift_left32<1>(across.texel));
+        const ints weights = Isa::either(across.here, Isa::template shift_left32<16>(across.next)), low = Isa::repeat32(0x00FF00FF);
+        const ints above = Isa::gather32(by.map, at),
+                   below = Isa::gather32(static_cast<const std::byte*>(by.map) + by.next_row, at);
+        const auto row = [&](const ints& codes) { return Isa::numbers(Isa::add_dot16(Isa::repeat32(0), weights, codes)); };
+        const floats here = Isa::numbers(down.here), next = Isa::numbers(down.next);
+        return {Isa::add_product(Isa::multiply(row(Isa::both(above, low)), here), row(Isa::both(below, low)), next),
+                Isa::add_product(Isa::multiply(row(Isa::template shift_right16<8>(above)), here),
+                                 row(Isa::template shift_right16<8>(below)), next)};
+    }
+
+    /// m z + (e-m) > 0, as above.
+    GNOMON_LANES bool decided(const blended_decision& by, const pair& moved, const floats& mask, const float* depths,
+                              masks& shadowed) noexcept {
+        const floats zero = Isa::repeat(0.0f), depth = Isa::load(depths);
+        shadowed = Isa::positive(moved.m, Isa::add(depth, by.z), Isa::subtract(moved.e, moved.m));
+        shadowed = Isa::both(Isa::both(shadowed, Isa::greater(depth, zero)),
+                             Isa::both(Isa::greater(mask, zero), Isa::not_greater(depth, by.farthest)));
+        return true;
+    }
+    /// The same times 65535, where sums of 2^40 are rounded three times, each time by 2^16 at most: within 2^18 of nothing they say
+    /// nothing. False if a receiver that has a mask lies there, or is moved behind every caster, or its pair beyond nothing.
+    GNOMON_LANES bool decided(const blended_decision& by, const pair& moved, const floats& mask, const std::uint16_t* depths,
+                              masks& shadowed) noexcept {
+        const floats zero = Isa::repeat(0.0f), code = Isa::template codes_of<unorm16, 1>(depths, 0), depth = Isa::add(code, by.z);
+        const floats rest = Isa::multiply(Isa::subtract(moved.e, moved.m), Isa::repeat(static_cast<float>(depth16::last)));
+        const floats sum = Isa::add_product(rest, moved.m, depth), doubt = Isa::repeat(0x1p18f);
+        const masks there = Isa::both(Isa::greater(mask, zero), Isa::both(Isa::greater(code, zero), Isa::greater(depth, zero)));
+        shadowed = Isa::both(there, Isa::greater(sum, doubt));
+        const masks near_nothing = Isa::both(Isa::not_greater(sum, doubt), Isa::not_greater(Isa::repeat(-0x1p18f), sum));
+        return !Isa::any(Isa::both(there, near_nothing)) && !Isa::any(Isa::both(there, Isa::greater(depth, by.farthest)));
+    }
+
+    GNOMON_LANES_VOID void store(float* to, const masks& shadowed, const floats& mask) noexcept {
+        Isa::store(to, Isa::keep(shadowed, Isa::fraction(mask, unorm8::scale * whole)));
+    }
+    GNOMON_LANES_VOID void store(std::uint8_t* to, const masks& shadowed, const floats& mask) noexcept {
+        const floats code = Isa::add(Isa::multiply(mask, Isa::repeat(1.0f / whole)), Isa::repeat(0.5f)); // exact
+        Isa::template store_codes<unorm8>(to, Isa::keep(shadowed, code));
+    }
+
+    /// False, and nothing stored, if float does not tell.
+    GNOMON_LANES bool one(const blended_decision& by, const float* x, const float* y, const Depth* z, Intensity* to) noexcept {
+        const pair blended = blend(by, x, y);
+        masks shadowed;
+        if (!decided(by, {Isa::add(blended.e, by.e), Isa::add(blended.m, by.m)}, blended.m, z, shadowed)) return false;
+        store(to, shadowed, blended.m);
+        return true;
+    }
+};
+
+/// What lanes blend and decide.
+template <texel_format Texel, typename Depth, typename Intensity>
+inline constexpr bool blended_in_lanes =
+    pairs_of_codes<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, unorm8> &&
+    (std::same_as<Intensity, float> || std::same_as<Intensity, std::uint8_t>);
+
+/// Receivers anywhere, spans of any stride. False, and nothing done, where the lanes do not serve.
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+bool receive_points(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
+                    strided_span<const Depth> z, strided_span<Intensity> intensity, const rule& r) noexcept {
+    using blended = blended_decision<Isa, Texel, Depth, Intensity>;
+    constexpr int step = blended::step;
+    if (!blended::serves(map, r)) return false;
+    const auto by = blended::of(map, r);
+    const int count = lesser(lesser(x.size(), y.size()), lesser(z.size(), intensity.size()));
+    const bool side_by_side = x.contiguous() && y.contiguous() && z.contiguous() && intensity.contiguous();
+    const int together = side_by_side ? count - count % step : 0;
+    const auto exactly = [&](int i, int some) {
+        for (int k = i; k < i + some; ++k) intensity[k] = shadow_as<Intensity>(sample(map, x[k], y[k]), detail::as_depth(z[k]), r);
+    };
+    for (int i = 0; i < together; i += step)
+        if (!blended::one(by, &x[i], &y[i], &z[i], &intensity[i])) exactly(i, step);
+    for (int i = together; i < count; i += step) {
+        const int some = lesser(step, count - i);
+        float px[static_cast<std::size_t>(step)]{}, py[static_cast<std::size_t>(step)]{};
+        Depth depth[static_cast<std::size_t>(step)]{};
+        Intensity made[static_cast<std::size_t>(step)];
+        for (int k = 0; k < some; ++k) px[k] = x[i + k], py[k] = y[i + k], depth[k] = z[i + k];
+        if (blended::one(by, px, py, depth, made))
+            for (int k = 0; k < some; ++k) intensity[i + k] = made[k];
+        else
+            exactly(i, some);
+    }
+    return true;
 }
 
 } // namespace gnomon::inline GNOMON_BUILD::GNOMON_ON

@@ -77,6 +77,12 @@ struct projected_polygon {
     /// Cuts off what a spot light's near plane hides, and what is farther off the map than fixed_point can say.
     void keep_drawable(bool near_plane_cuts) noexcept {
         constexpr double reach = fixed_point::reach;
+        bool uncut = true; // and that most are, the half of this octahedron tells sooner
+        for (int i = 0; i < count; ++i) {
+            const glm::dvec4& h = corner[i];
+            uncut = reach * h.w - std::abs(h.x) - (std::abs(h.y) + h.z * 0.0) > 0.0 && (!near_plane_cuts || h.z > 0.0) && uncut;
+        }
+        if (uncut) return;
         if (near_plane_cuts) keep_above({0.0, 0.0, 1.0, 0.0});
         keep_above({1.0, 0.0, 0.0, reach});
         keep_above({-1.0, 0.0, 0.0, reach});
@@ -86,48 +92,66 @@ struct projected_polygon {
 };
 
 /// The depth of a triangle at any texel centre. On the map depth is affine for a directional light; for a spot light 1/W is, and
-/// depth is affine in W. So one affine function is kept, of either: that of the corners as they were before clipping and snapping.
+/// depth is affine in W. So one affine function is kept, of either: q = a (x - x_0) + b (y - y_0) + c.
+struct triangle_depth {
+    bool inverse;
+    double near_w, per_w;
+    double x, y; ///< (x_0, y_0)
+    double a, b, c;
+    double nearest, farthest; ///< of the corners
+
+    /// Never outside the corners' depths: so a steep triangle, whose texel may lie 1/362 texel outside it, does not shoot off.
+    [[nodiscard]] float operator()(int column, int row) const noexcept {
+        const double q = a * (column + 0.5 - x) + (b * (row + 0.5 - y) + c);
+        const double z = !inverse ? q : (q > 0.0 ? (1.0 / q - near_w) * per_w : farthest);
+        return float32::store(z > nearest ? (z < farthest ? z : farthest) : nearest);
+    }
+};
+
+/// The plane of a triangle, from its corners as they were before clipping and snapping.
 class depth_surface {
   public:
     /// `corner` are the three corners; `reference` is any visible point of the triangle, about which it is solved.
     depth_surface(const glm::dvec4* corner, const glm::dvec4& reference, const light_frame& light) noexcept
-        : inverse_(light.perspective()), near_w_(light.near_w()), per_w_(inverse_ ? 1.0 / (light.far_w() - near_w_) : 0.0),
-          x_(reference.x / reference.w), y_(reference.y / reference.w), c_(inverse_ ? 1.0 / reference.w : reference.z) {
+        : depth_{.inverse = light.perspective(),
+                 .near_w = light.near_w(),
+                 .per_w = per_w(light),
+                 .x = reference.x / reference.w,
+                 .y = reference.y / reference.w,
+                 .a = 0.0,
+                 .b = 0.0,
+                 .c = light.perspective() ? 1.0 / reference.w : reference.z,
+                 .nearest = std::numeric_limits<double>::infinity(),
+                 .farthest = -std::numeric_limits<double>::infinity()} {
         // q = a x + b y + c at every corner; times W: a X + b Y + c W = Q, where Q is 1 or z. (Olano and Greer, "Triangle scan
         // conversion using 2D homogeneous coordinates", 1997; a corner behind the light needs no care.)
         glm::dvec3 u[3], rest;
         for (int i = 0; i < 3; ++i) {
             const glm::dvec4& h = corner[i];
-            u[i] = {h.x - x_ * h.w, h.y - y_ * h.w, h.w};
-            rest[i] = (inverse_ ? 1.0 : h.z) - c_ * h.w;
-            nearest_ = lesser(nearest_, h.z);
-            farthest_ = greater(farthest_, h.z);
+            u[i] = {h.x - depth_.x * h.w, h.y - depth_.y * h.w, h.w};
+            rest[i] = (depth_.inverse ? 1.0 : h.z) - depth_.c * h.w;
+            depth_.nearest = lesser(depth_.nearest, h.z);
+            depth_.farthest = greater(depth_.farthest, h.z);
         }
         const glm::dvec3 u01 = glm::cross(u[0], u[1]), u12 = glm::cross(u[1], u[2]), u20 = glm::cross(u[2], u[0]);
         area_ = glm::dot(u[0], u12);
         if (!(std::abs(area_) > 0.0)) return; // edge-on: a texel that snapping still gives it has the depth of the reference
         const glm::dvec3 abc = (rest[0] * u12 + rest[1] * u20 + rest[2] * u01) / area_;
-        a_ = abc.x;
-        b_ = abc.y;
-        c_ += abc.z;
+        depth_.a = abc.x;
+        depth_.b = abc.y;
+        depth_.c += abc.z;
     }
 
+    /// Depth per W of a spot light, 0 of a directional one.
+    [[nodiscard]] static double per_w(const light_frame& light) noexcept {
+        return light.perspective() ? 1.0 / (light.far_w() - light.near_w()) : 0.0;
+    }
     /// Positive for corners that turn from x to y on the map.
     [[nodiscard]] double area() const noexcept { return area_; }
-
-    /// Never outside the corners' depths: so a steep triangle, whose texel may lie 1/362 texel outside it, does not shoot off.
-    [[nodiscard]] float operator()(int x, int y) const noexcept {
-        const double q = a_ * (x + 0.5 - x_) + (b_ * (y + 0.5 - y_) + c_);
-        const double z = !inverse_ ? q : (q > 0.0 ? (1.0 / q - near_w_) * per_w_ : farthest_);
-        return static_cast<float>(z > nearest_ ? (z < farthest_ ? z : farthest_) : nearest_);
-    }
+    [[nodiscard]] const triangle_depth& depth() const noexcept { return depth_; }
 
   private:
-    bool inverse_;
-    double near_w_, per_w_;
-    double x_, y_;
-    double a_ = 0.0, b_ = 0.0, c_;
-    double nearest_ = std::numeric_limits<double>::infinity(), farthest_ = -nearest_;
+    triangle_depth depth_;
     double area_ = 0.0;
 };
 
@@ -142,11 +166,49 @@ class depth_surface {
     return triangle;
 }
 
+/// Does a triangle whose area has this sign turn the side to the light that is asked for?
+[[nodiscard]] constexpr bool shows(double area, double handedness, faces side) noexcept {
+    const bool towards = area * handedness < 0.0; // x, y, depth of a map are left-handed
+    return side == faces::both || towards == (side == faces::lit_side);
+}
+
+/// The box around runs of texels, and around the depths at their ends: along a row depth is monotone.
+struct touched_texels {
+    texel_rect box{int_max, int_max, -int_max, -int_max};
+    float nearest = std::numeric_limits<float>::infinity(), farthest = -nearest;
+
+    constexpr void add(int y, int x0, int x1, float first, float last) noexcept {
+        box = {lesser(box.x0, x0), lesser(box.y0, y), greater(box.x1, x1), greater(box.y1, y + 1)};
+        nearest = lesser(nearest, lesser(first, last));
+        farthest = greater(farthest, greater(first, last));
+    }
+    [[nodiscard]] constexpr light_footprint footprint() const noexcept {
+        if (box.empty()) return {};
+        return {box, {saturate(nearest), saturate(farthest)}};
+    }
+};
+
 template <marked_texels Where> [[nodiscard]] constexpr bool touches(const Where& where, texel_rect r) {
     if constexpr (requires { where.touches(r); })
         return where.touches(r);
     else
         return where(r);
+}
+
+/// Calls run(depth, y, x0, x1) for every run of texels of `target` that a triangle covers.
+template <marked_texels Where, typename Run>
+void draw_triangle(const triangle_mesh& mesh, int first, const glm::dmat4& to_map, double handedness, const light_frame& light,
+                   texel_rect target, faces side, const Where& where, Run&& run) {
+    const projected_polygon triangle = project(mesh, first, to_map);
+    projected_polygon visible = triangle;
+    visible.keep_drawable(light.perspective());
+    fixed_point corners[most_corners];
+    if (!visible.snap(corners)) return;
+    const texel_rect around = intersection(target, centres_in(corners, visible.count));
+    if (around.empty() || !touches(where, around)) return;
+    const depth_surface surface(triangle.corner, visible.corner[0], light);
+    if (!shows(surface.area(), handedness, side)) return;
+    scan(corners, visible.count, around, [&](int y, int x0, int x1) { run(surface.depth(), y, x0, x1); });
 }
 } // namespace detail
 
@@ -166,33 +228,22 @@ template <typename Sink, marked_texels Where = touches_everything>
     requires requires(Sink& sink, int i, float depth) { sink(i, i, depth); }
 light_footprint rasterize(const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side, Sink&& sink,
                           const Where& where = {}) {
-    light_footprint touched;
     target = clip(target, light.size());
-    if (target.empty()) return touched; // so is an invalid frame's
+    if (target.empty()) return {}; // so is an invalid frame's
     const glm::dmat4 to_map = light.matrix() * mesh.model;
     const double handedness = detail::volume(to_map);
 
-    for (int first = 0; first + 2 < mesh.indices.size(); first += 3) {
-        const detail::projected_polygon triangle = detail::project(mesh, first, to_map);
-        detail::projected_polygon visible = triangle;
-        visible.keep_drawable(light.perspective());
-        detail::fixed_point corners[detail::most_corners];
-        if (!visible.snap(corners)) continue;
-        const texel_rect around = intersection(target, detail::centres_in(corners, visible.count));
-        if (around.empty() || !detail::touches(where, around)) continue;
-
-        const detail::depth_surface depth(triangle.corner, visible.corner[0], light);
-        const bool towards = depth.area() * handedness < 0.0; // x, y, depth of a map are left-handed
-        if (side != faces::both && towards != (side == faces::lit_side)) continue;
-
-        detail::scan(corners, visible.count, around, [&](int y, int x0, int x1) {
-            for (int x = x0; x < x1; ++x) sink(x, y, depth(x, y));
-            const float one = saturate(depth(x0, y)), other = saturate(depth(x1 - 1, y)); // monotone along a row
-            touched.texels = union_box(touched.texels, {x0, y, x1, y + 1});
-            touched.depth.include({lesser(one, other), greater(one, other)});
-        });
-    }
-    return touched;
+    detail::touched_texels touched;
+    const auto run = [&](const detail::triangle_depth& depth, int y, int x0, int x1) {
+        const float first = depth(x0, y);
+        float last = first;
+        sink(x0, y, first);
+        for (int x = x0 + 1; x < x1; ++x) sink(x, y, last = depth(x, y));
+        touched.add(y, x0, x1, first, last);
+    };
+    for (int first = 0; first + 2 < mesh.indices.size(); first += 3)
+        detail::draw_triangle(mesh, first, to_map, handedness, light, target, side, where, run);
+    return touched.footprint();
 }
 
 /// Casts triangles into a map: `tiles.mark(cast_triangles(texels, mesh, light).texels, guard)`. Texel (0, 0) is that of the map.

@@ -1,8 +1,10 @@
 // gnomon: soft shadow maps. Bias: which way a decision errs where the stored numbers leave it open, and by how much.
 #pragma once
 
+#include <gnomon/rect.hpp>
 #include <gnomon/texel/texel.hpp>
 
+#include <cstdint>
 #include <type_traits>
 
 namespace gnomon::inline GNOMON_BUILD {
@@ -49,6 +51,12 @@ inline constexpr bias unbiased{.towards = bias_towards::none};
 /// No light for any z > s. Shadow may begin before the caster, by as much as towards_light loses behind it.
 inline constexpr bias towards_shadow{.towards = bias_towards::shadow};
 
+/// A receiver's depth as a code of unorm16: z = code / 65535, so a decision about it is one of whole numbers.
+struct depth16 {
+    static constexpr int last = 65535;
+    std::uint16_t code;
+};
+
 /// What the rounding of a caster's own depth can do on either side, and 2^-24 for the sums in float that apply it.
 template <texel_format Texel>
 inline constexpr caster_rounding caster_depth_error = [] {
@@ -79,6 +87,19 @@ template <texel_format Texel> [[nodiscard]] constexpr biased apply(const bias& b
     const float rounded = towards > 0.0f ? caster_depth_error<Texel>.nearer : caster_depth_error<Texel>.farther;
     const float caster = b.caster_is_code ? 0.0f : rounded;
     return {static_cast<double>(lower), static_cast<double>(upper), z - towards * (b.depth + caster)};
+}
+
+/// How many codes nearer to the light a bias moves a depth16; fewer than none are away from it. It makes up for the caster's own
+/// rounding, and for the receiver's to its code, half a code; whole codes, rounded up but for 1/256 of one. For a unorm8 depth that
+/// is 129 = 257/2 + 1/2, for a unorm16 one 1. Of a `depth` beyond the range it is the range; of NaN too, so that all is lit.
+template <texel_format Texel> [[nodiscard]] constexpr int codes_towards_light(const bias& b) noexcept {
+    if (b.towards == bias_towards::none) return 0;
+    const bool light = b.towards == bias_towards::light;
+    const float caster = light ? Texel::depth_of_caster.nearer : Texel::depth_of_caster.farther;
+    const double own = b.caster_is_code ? 0.0 : static_cast<double>(caster) * depth16::last + 0.5;
+    const double up = static_cast<double>(b.depth) * depth16::last + own + (1.0 - 0x1p-8);
+    const int codes = up < depth16::last ? (up > -depth16::last ? detail::floor_to_int(up) : -depth16::last) : depth16::last;
+    return light || !same(up, up) ? codes : -codes;
 }
 
 } // namespace gnomon::inline GNOMON_BUILD

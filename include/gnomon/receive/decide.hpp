@@ -4,6 +4,9 @@
 #include <gnomon/filter/sample.hpp>
 #include <gnomon/receive/bias.hpp>
 
+#include <concepts>
+#include <cstdint>
+
 namespace gnomon::inline GNOMON_BUILD {
 
 /// How a filtered texel becomes an intensity. What every receive function uses if nothing else is said, rule{}: no false shadow.
@@ -19,35 +22,80 @@ struct rule {
     bool lit_beyond = false;
 };
 
+/// What an intensity is stored in: float in [0, 1], or a code of unorm8 or unorm16.
+template <typename T>
+concept intensity_number = std::same_as<T, float> || std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t>;
+
 namespace detail {
+
+/// Lies a receiver where shadow may fall at all?
+[[nodiscard]] constexpr bool may_be_shadowed(float z, const rule& r) noexcept { return z > 0.0f && !(r.lit_beyond && z > 1.0f); }
+[[nodiscard]] constexpr bool may_be_shadowed(depth16 z, const rule&) noexcept { return z.code > 0; }
+
+template <texel_format Texel>
+[[nodiscard]] constexpr bool behind_caster(const filtered<Texel>& texel, float z, const bias& b) noexcept {
+    const biased near_side = apply<Texel>(b, texel.depth(), texel.mask(), z);
+    return Texel::representation_type::behind(near_side.e, near_side.m, static_cast<double>(near_side.z));
+}
+
+/// e > m (1-z) times 65535. Whole numbers, or of at most 34 and 17 bits, so nothing is rounded, blends of unorm texels and numbers in
+/// float included. What a bias moves past an end of its range stays there, (e, m) at nothing, and z before all casters or behind them.
+template <texel_format Texel>
+[[nodiscard]] constexpr bool behind_caster(const filtered<Texel>& texel, depth16 z, const bias& b) noexcept {
+    const biased pair = apply<Texel>(b, texel.depth(), texel.mask(), 0.0f);
+    const int depth = z.code - codes_towards_light<Texel>(b), rest = depth16::last - depth;
+    return rest < 0 || (depth > 0 && greater(0.0, pair.e) * depth16::last > greater(0.0, pair.m) * rest);
+}
 
 /// What is left of a shadow at `z`, from 1 before its far bound to 0 behind it; 1 if no receiver bounds it. \pre mask > 0
 template <texel_format Texel>
 [[nodiscard]] constexpr double before_far_bound(const filtered<Texel>& texel, float z, const rule& r) noexcept {
-    if (!(texel.far_bound() > 0.0)) return 1.0;
-    const biased bound = apply<Texel>(r.far_bound, texel.far_bound(), texel.mask(), z);
-    const double depth = static_cast<double>(bound.z);
-    if (!Texel::representation_type::behind(bound.e, bound.m, depth)) return 1.0;
-    const double passed = bound.m * depth - (bound.m - bound.e); // m (z - far bound)
-    return r.fade > 0.0f ? saturate(1.0 - passed / (bound.m * static_cast<double>(r.fade))) : 0.0;
+    if constexpr (!Texel::effects.far_bound) {
+        return 1.0;
+    } else {
+        if (!(texel.far_bound() > 0.0)) return 1.0;
+        const biased bound = apply<Texel>(r.far_bound, texel.far_bound(), texel.mask(), z);
+        const double depth = static_cast<double>(bound.z);
+        if (!Texel::representation_type::behind(bound.e, bound.m, depth)) return 1.0;
+        const double passed = bound.m * depth - (bound.m - bound.e); // m (z - far bound)
+        return r.fade > 0.0f ? saturate(1.0 - passed / (bound.m * static_cast<double>(r.fade))) : 0.0;
+    }
+}
+template <texel_format Texel>
+[[nodiscard]] constexpr double before_far_bound(const filtered<Texel>& texel, depth16 z, const rule& r) noexcept {
+    return before_far_bound(texel, unorm16::decode(z.code), r);
+}
+
+/// `left` of a darkness in codes of the texel, as it is stored. Codes are rounded once, halves upwards; those of a unorm texel of as
+/// many bits are its own.
+template <intensity_number Intensity, texel_format Texel>
+[[nodiscard]] constexpr Intensity intensity_of(double darkness, double left) noexcept {
+    constexpr double scale = filtered<Texel>::scale;
+    if constexpr (std::same_as<Intensity, float>) {
+        return static_cast<float>(saturate(darkness / scale) * left);
+    } else {
+        constexpr double last = static_cast<double>(unorm<Intensity>::scale);
+        return unorm<Intensity>::store(lesser(greater(0.0, darkness), scale) * last / scale * left);
+    }
 }
 
 } // namespace detail
 
-/// Intensity of the shadow on a receiver at depth `z`, in [0, 1]: the filtered mask (or contribution) if it lies behind the caster
-/// (Salzman 2007, step 4), cut at the far bound if there is one.
+/// Intensity of the shadow on a receiver at depth `z`, a float or a depth16, stored as `Intensity`: the filtered mask (or
+/// contribution) if the receiver lies behind the caster (Salzman 2007, step 4), cut at the far bound if there is one.
 ///
 /// Total: m = 0, negative or NaN is lit; z <= 0 and NaN is lit; z = +inf is behind everything; any bit pattern gives [0, 1].
 /// Exact for the stored codes of unorm texels: no rounding happens before the comparison is decided.
+template <intensity_number Intensity, texel_format Texel, typename Depth>
+[[nodiscard]] constexpr Intensity shadow_as(const filtered<Texel>& texel, Depth z, const rule& r = {}) noexcept {
+    if (!(texel.mask() > 0.0) || !detail::may_be_shadowed(z, r) || !detail::behind_caster(texel, z, r.caster)) return 0;
+    return detail::intensity_of<Intensity, Texel>(texel.contribution(), detail::before_far_bound(texel, z, r));
+}
+
+/// The same as a float.
 template <texel_format Texel>
 [[nodiscard]] constexpr float shadow(const filtered<Texel>& texel, float z, const rule& r = {}) noexcept {
-    using representation_type = typename Texel::representation_type;
-    if (!(texel.mask() > 0.0) || !(z > 0.0f) || (r.lit_beyond && z > 1.0f)) return 0.0f;
-    const biased near_side = apply<Texel>(r.caster, texel.depth(), texel.mask(), z);
-    if (!representation_type::behind(near_side.e, near_side.m, static_cast<double>(near_side.z))) return 0.0f;
-    double intensity = saturate(texel.contribution() / filtered<Texel>::scale);
-    if constexpr (Texel::effects.far_bound) intensity *= detail::before_far_bound(texel, z, r);
-    return static_cast<float>(intensity);
+    return shadow_as<float>(texel, z, r);
 }
 
 /// The same for a texel as it is stored.

@@ -3,42 +3,73 @@
 
 #include <gnomon/receive/decide.hpp>
 
+#include <concepts>
+#include <cstdint>
 #include <type_traits>
 #include <utility>
 
 namespace gnomon::inline GNOMON_BUILD {
 
-/// The texel format of a row of texels: of a strided_span, std::span, std::vector or anything else with data() and size().
-template <typename Row>
-using texel_in = std::remove_const_t<typename decltype(strided_span(std::declval<const Row&>()))::element_type>;
+/// What lies in a row: in a strided_span, std::span, std::vector, array or anything else with data() and size().
+template <typename Row> using element_in = typename decltype(strided_span(std::declval<Row&>()))::element_type;
+
+/// The texel format of a row of texels.
+template <typename Row> using texel_in = std::remove_const_t<element_in<const Row>>;
 
 template <typename Row>
 concept texel_row = texel_format<texel_in<Row>>;
 
+/// What a depth is stored in: float, or std::uint16_t for a code of unorm16, z = code / 65535.
+template <typename T>
+concept depth_number = std::same_as<T, float> || std::same_as<T, std::uint16_t>;
+
+template <typename Row>
+concept depth_row = depth_number<std::remove_const_t<element_in<const Row>>>;
+
+template <typename Row>
+concept intensity_row = intensity_number<element_in<std::remove_reference_t<Row>>>;
+
+namespace detail {
+[[nodiscard]] constexpr float as_depth(float z) noexcept { return z; }
+[[nodiscard]] constexpr depth16 as_depth(std::uint16_t code) noexcept { return {code}; }
+} // namespace detail
+
 /// Receivers that lie one to one on texels: intensity[i] = shadow(texels[i], z[i]). The shortest of the three spans counts.
-/// A row, a column, or a field of an array of structures: any stride that keeps the elements aligned. Nothing is allocated.
-template <texel_row Row>
-void receive(const Row& texels, strided_span<const float> z, strided_span<float> intensity, const rule& r = {}) noexcept {
+///
+///     std::vector<std::uint16_t> z(width);        // unorm16; or float
+///     std::vector<std::uint8_t> intensity(width); // unorm8; or std::uint16_t, unorm16; or float
+///     receive(texels, z, intensity);
+///
+/// A row, a column, or a field of an array of structures: any stride that keeps the elements aligned. Nothing is allocated. In place
+/// too: where element i of the result lies within texel i or depth i, or apart from all that is read after it.
+template <texel_row Row, depth_row Depths, intensity_row Intensities>
+void receive(const Row& texels, const Depths& z, Intensities&& intensity, const rule& r = {}) noexcept {
     const strided_span row(texels);
-    const int count = lesser(row.size(), lesser(z.size(), intensity.size()));
-    for (int i = 0; i < count; ++i) intensity[i] = shadow(row[i], z[i], r);
+    const strided_span depths(z);
+    const strided_span out(intensity);
+    using number = typename decltype(out)::element_type;
+    const int count = lesser(row.size(), lesser(depths.size(), out.size()));
+    for (int i = 0; i < count; ++i) out[i] = shadow_as<number>(read(row[i]), detail::as_depth(depths[i]), r);
 }
 
 /// A whole image of receivers, one to one on the texels of the map; what the three images share is written.
-template <typename T>
-    requires texel_format<std::remove_const_t<T>>
-void receive(image_view<T> map, image_view<const float> z, image_view<float> intensity, const rule& r = {}) noexcept {
+template <typename T, typename Z, intensity_number Intensity>
+    requires texel_format<std::remove_const_t<T>> && depth_number<std::remove_const_t<Z>>
+void receive(image_view<T> map, image_view<Z> z, image_view<Intensity> intensity, const rule& r = {}) noexcept {
     const int rows = lesser(map.height(), lesser(z.height(), intensity.height()));
     for (int y = 0; y < rows; ++y) receive(map.row_span(y), z.row_span(y), intensity.row_span(y), r);
 }
 
 /// Receivers anywhere: at (x[i], y[i]) in texels, blended from four. Off the map is lit. The shortest span counts.
-template <typename T>
+template <typename T, depth_row Depths, intensity_row Intensities>
     requires texel_format<std::remove_const_t<T>>
-void receive(image_view<T> map, strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
-             strided_span<float> intensity, const rule& r = {}) noexcept {
-    const int count = lesser(lesser(x.size(), y.size()), lesser(z.size(), intensity.size()));
-    for (int i = 0; i < count; ++i) intensity[i] = shadow(sample(map, x[i], y[i]), z[i], r);
+void receive(image_view<T> map, strided_span<const float> x, strided_span<const float> y, const Depths& z, Intensities&& intensity,
+             const rule& r = {}) noexcept {
+    const strided_span depths(z);
+    const strided_span out(intensity);
+    using number = typename decltype(out)::element_type;
+    const int count = lesser(lesser(x.size(), y.size()), lesser(depths.size(), out.size()));
+    for (int i = 0; i < count; ++i) out[i] = shadow_as<number>(sample(map, x[i], y[i]), detail::as_depth(depths[i]), r);
 }
 
 } // namespace gnomon::inline GNOMON_BUILD

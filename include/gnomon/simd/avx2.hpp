@@ -103,6 +103,36 @@ struct avx2 {
     }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
+    GNOMON_LANES ints either(ints a, ints b) noexcept { return _mm256_or_si256(a, b); }
+    GNOMON_LANES ints subtract16(ints a, ints b) noexcept { return _mm256_sub_epi16(a, b); }
+    GNOMON_LANES ints subtract_to_zero16(ints a, ints b) noexcept { return _mm256_subs_epu16(a, b); }
+    GNOMON_LANES ints multiply_low16(ints a, ints b) noexcept { return _mm256_mullo_epi16(a, b); }
+    GNOMON_LANES ints multiply_high16(ints a, ints b) noexcept { return _mm256_mulhi_epu16(a, b); }
+    template <int Bits> GNOMON_LANES ints shift_left16(ints a) noexcept { return _mm256_slli_epi16(a, Bits); }
+    template <int Bits> GNOMON_LANES ints shift_right16(ints a) noexcept { return _mm256_srli_epi16(a, Bits); }
+    GNOMON_LANES ints greater16(ints a, ints b) noexcept {
+        const ints sign = _mm256_set1_epi16(-32768);
+        return _mm256_cmpgt_epi16(_mm256_xor_si256(a, sign), _mm256_xor_si256(b, sign));
+    }
+    GNOMON_LANES ints upper_where_greater16(ints values, ints a, ints b) noexcept {
+        const ints lit = _mm256_cmpeq_epi16(_mm256_subs_epu16(a, b), _mm256_setzero_si256());
+        return _mm256_srli_epi16(_mm256_andnot_si256(lit, values), 8);
+    }
+    GNOMON_LANES bool any_equal16(ints a, ints b, ints c, ints d) noexcept {
+        return _mm256_movemask_epi8(_mm256_or_si256(_mm256_cmpeq_epi16(a, b), _mm256_cmpeq_epi16(c, d))) != 0;
+    }
+
+    GNOMON_LANES ints both(ints a, ints b) noexcept { return _mm256_and_si256(a, b); }
+    GNOMON_LANES ints multiply32(ints a, ints b) noexcept { return _mm256_mullo_epi32(a, b); }
+    GNOMON_LANES ints lesser32(ints a, ints b) noexcept { return _mm256_min_epi32(a, b); }
+    GNOMON_LANES ints greater32(ints a, ints b) noexcept { return _mm256_max_epi32(a, b); }
+    template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return _mm256_slli_epi32(a, Bits); }
+    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
+        const ints none = _mm256_setzero_si256(), all = _mm256_cmpeq_epi32(none, none);
+        return _mm256_mask_i32gather_epi32(none, static_cast<const int*>(from), offsets, all, 1);
+    }
+    GNOMON_LANES ints floor32(floats a) noexcept { return _mm256_cvttps_epi32(_mm256_floor_ps(a)); }
+
     GNOMON_LANES floats load(const float* from) noexcept { return _mm256_loadu_ps(from); }
     GNOMON_LANES_VOID void store(float* to, floats a) noexcept { _mm256_storeu_ps(to, a); }
     GNOMON_LANES floats repeat(float v) noexcept { return _mm256_set1_ps(v); }
@@ -137,10 +167,20 @@ struct avx2 {
             return load(from);
         } else if constexpr (std::same_as<Channel, half16> && Channels == 1) {
             return _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
+        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 1) {
+            return _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
+        } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
+            return channel_of_pairs(load(from), load(from + 8), c);
+        } else if constexpr (std::same_as<Channel, half16> && Channels == 2) {
+            const auto* const pairs = reinterpret_cast<const __m128i*>(from);
+            return channel_of_pairs(_mm256_cvtph_ps(_mm_loadu_si128(pairs)), _mm256_cvtph_ps(_mm_loadu_si128(pairs + 1)), c);
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
     }
+
+    GNOMON_LANES floats numbers(ints a) noexcept { return _mm256_cvtepi32_ps(a); }
+    GNOMON_LANES bool any(masks a) noexcept { return _mm256_movemask_ps(a) != 0; }
 
     GNOMON_LANES doubles load(const double* from) noexcept { return _mm256_loadu_pd(from); }
     GNOMON_LANES_VOID void store(double* to, doubles a) noexcept { _mm256_storeu_pd(to, a); }
@@ -153,6 +193,15 @@ struct avx2 {
         const ints sum = _mm256_add_epi64(_mm256_castpd_si256(a), _mm256_set1_epi64x(static_cast<long long>(addend)));
         return _mm256_castsi256_pd(_mm256_and_si256(sum, _mm256_set1_epi64x(static_cast<long long>(mask))));
     }
+
+    GNOMON_LANES doubles subtract(doubles a, doubles b) noexcept { return _mm256_sub_pd(a, b); }
+    GNOMON_LANES doubles smaller(doubles a, doubles b) noexcept { return _mm256_min_pd(a, b); }
+    GNOMON_LANES doubles larger(doubles a, doubles b) noexcept { return _mm256_max_pd(a, b); }
+    GNOMON_LANES doubles truncate(doubles a) noexcept { return _mm256_cvtepi32_pd(_mm256_cvttpd_epi32(a)); }
+    GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept {
+        return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_GT_OQ)));
+    }
+    GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
 
     template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {
         if constexpr (std::same_as<Channel, unorm8>) {
@@ -169,10 +218,20 @@ struct avx2 {
         }
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
-        if constexpr (std::same_as<Channel, half16>)
-            _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm256_cvtps_ph(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
-        else
-            store(to, add(a, _mm256_setzero_ps()));
+        if constexpr (Channel::whole_codes) {
+            const ints whole = _mm256_cvttps_epi32(a);
+            const __m128i words = _mm_packus_epi32(_mm256_castsi256_si128(whole), _mm256_extracti128_si256(whole, 1));
+            if constexpr (std::same_as<Channel, unorm8>) {
+                _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_packus_epi16(words, words));
+            } else {
+                _mm_storeu_si128(reinterpret_cast<__m128i*>(to), words);
+            }
+        } else {
+            if constexpr (std::same_as<Channel, half16>)
+                _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm256_cvtps_ph(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
+            else
+                store(to, add(a, _mm256_setzero_ps()));
+        }
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, doubles a) noexcept {
         if constexpr (std::same_as<Channel, unorm8>) {
@@ -190,12 +249,44 @@ struct avx2 {
             _mm_storeu_ps(to, _mm_add_ps(_mm256_cvtpd_ps(a), _mm_setzero_ps()));
         }
     }
+    GNOMON_LANES doubles store_floats(float* to, doubles a) noexcept {
+        const __m128 four = _mm_add_ps(_mm256_cvtpd_ps(a), _mm_setzero_ps());
+        _mm_storeu_ps(to, four);
+        return _mm256_cvtps_pd(four);
+    }
+    template <channel Channel>
+    GNOMON_LANES_VOID void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
+        constexpr int bits = 8 * sizeof(typename Channel::storage), full = (1 << bits) - 1;
+        if (bits == 8 && where != 0xF) { // no part of a register is stored by itself
+            double lane[4];
+            store(lane, codes);
+            emulated<bytes>::template cast_pairs<Channel>(to, where, {{lane[0], lane[1], lane[2], lane[3]}});
+            return;
+        }
+        const __m128i code = _mm256_cvttpd_epi32(codes), each = _mm_setr_epi32(1, 2, 4, 8);
+        const __m128i asked = _mm_cmpeq_epi32(_mm_and_si128(_mm_set1_epi32(static_cast<int>(where)), each), each);
+        const __m128i old = bits == 8 ? _mm_cvtepu16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(to)))
+                                      : _mm_maskload_epi32(reinterpret_cast<const int*>(to), asked);
+        const __m128i empty = _mm_cmpeq_epi32(_mm_srli_epi32(old, bits), _mm_setzero_si128());
+        const __m128i nearer = _mm_cmpgt_epi32(code, _mm_and_si128(old, _mm_set1_epi32(full)));
+        const __m128i take = _mm_and_si128(_mm_or_si128(empty, nearer), asked);
+        const __m128i pairs = _mm_or_si128(code, _mm_slli_epi32(_mm_set1_epi32(full), bits));
+        if constexpr (bits == 8)
+            _mm_storel_epi64(reinterpret_cast<__m128i*>(to),
+                             _mm_packus_epi32(_mm_blendv_epi8(old, pairs, take), _mm_setzero_si128()));
+        else
+            _mm_maskstore_epi32(reinterpret_cast<int*>(to), take, pairs);
+    }
 
   private:
     /// In each 16 bytes: words 0, 2, 4, 6, and 1, 3, 5, 7 behind them.
     GNOMON_LANES ints words_apart(ints a) noexcept {
         return _mm256_shuffle_epi8(
             a, _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 4, 5, 8, 9, 12, 13, 2, 3, 6, 7, 10, 11, 14, 15)));
+    }
+    GNOMON_LANES floats channel_of_pairs(floats a, floats b, int c) noexcept {
+        const floats taken = c == 0 ? _mm256_shuffle_ps(a, b, 0x88) : _mm256_shuffle_ps(a, b, 0xDD);
+        return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(taken), 0xD8));
     }
     /// Cut to the 24 bits of a float, the last one set if anything was lost: rounding that to a half rounds once.
     GNOMON_LANES doubles to_odd(doubles a) noexcept {

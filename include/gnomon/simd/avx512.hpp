@@ -101,6 +101,33 @@ struct avx512 {
     }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
+    GNOMON_LANES ints either(ints a, ints b) noexcept { return _mm512_or_si512(a, b); }
+    GNOMON_LANES ints subtract16(ints a, ints b) noexcept { return _mm512_sub_epi16(a, b); }
+    GNOMON_LANES ints subtract_to_zero16(ints a, ints b) noexcept { return _mm512_subs_epu16(a, b); }
+    GNOMON_LANES ints multiply_low16(ints a, ints b) noexcept { return _mm512_mullo_epi16(a, b); }
+    GNOMON_LANES ints multiply_high16(ints a, ints b) noexcept { return _mm512_mulhi_epu16(a, b); }
+    template <int Bits> GNOMON_LANES ints shift_left16(ints a) noexcept { return _mm512_slli_epi16(a, Bits); }
+    template <int Bits> GNOMON_LANES ints shift_right16(ints a) noexcept { return _mm512_srli_epi16(a, Bits); }
+    GNOMON_LANES ints greater16(ints a, ints b) noexcept { return _mm512_movm_epi16(_mm512_cmpgt_epu16_mask(a, b)); }
+    GNOMON_LANES ints upper_where_greater16(ints values, ints a, ints b) noexcept {
+        return _mm512_maskz_srli_epi16(_mm512_cmpgt_epu16_mask(a, b), values, 8);
+    }
+    GNOMON_LANES bool any_equal16(ints a, ints b, ints c, ints d) noexcept {
+        return (_mm512_cmpeq_epi16_mask(a, b) | _mm512_cmpeq_epi16_mask(c, d)) != 0;
+    }
+
+    GNOMON_LANES ints both(ints a, ints b) noexcept { return _mm512_and_si512(a, b); }
+    GNOMON_LANES ints multiply32(ints a, ints b) noexcept { return _mm512_mullo_epi32(a, b); }
+    GNOMON_LANES ints lesser32(ints a, ints b) noexcept { return _mm512_maskz_min_epi32(all, a, b); }
+    GNOMON_LANES ints greater32(ints a, ints b) noexcept { return _mm512_maskz_max_epi32(all, a, b); }
+    template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return _mm512_maskz_slli_epi32(all, a, Bits); }
+    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
+        return _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), all, offsets, from, 1);
+    }
+    GNOMON_LANES ints floor32(floats a) noexcept {
+        return _mm512_maskz_cvt_roundps_epi32(all, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+    }
+
     GNOMON_LANES floats load(const float* from) noexcept { return _mm512_loadu_ps(from); }
     GNOMON_LANES_VOID void store(float* to, floats a) noexcept { _mm512_storeu_ps(to, a); }
     GNOMON_LANES floats repeat(float v) noexcept { return _mm512_set1_ps(v); }
@@ -135,10 +162,21 @@ struct avx512 {
             return load(from);
         } else if constexpr (std::same_as<Channel, half16> && Channels == 1) {
             return _mm512_maskz_cvtph_ps(all, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
+        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 1) {
+            return number(_mm512_maskz_cvtepu16_epi32(all, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from))));
+        } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
+            return channel_of_pairs(load(from), load(from + 16), c);
+        } else if constexpr (std::same_as<Channel, half16> && Channels == 2) {
+            const auto* const pairs = reinterpret_cast<const __m256i*>(from);
+            return channel_of_pairs(_mm512_maskz_cvtph_ps(all, _mm256_loadu_si256(pairs)),
+                                    _mm512_maskz_cvtph_ps(all, _mm256_loadu_si256(pairs + 1)), c);
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
     }
+
+    GNOMON_LANES floats numbers(ints a) noexcept { return number(a); }
+    GNOMON_LANES bool any(masks a) noexcept { return a != 0; }
 
     GNOMON_LANES doubles load(const double* from) noexcept { return _mm512_loadu_pd(from); }
     GNOMON_LANES_VOID void store(double* to, doubles a) noexcept { _mm512_storeu_pd(to, a); }
@@ -151,6 +189,15 @@ struct avx512 {
         const ints sum = _mm512_add_epi64(_mm512_castpd_si512(a), _mm512_set1_epi64(static_cast<long long>(addend)));
         return _mm512_castsi512_pd(_mm512_and_si512(sum, _mm512_set1_epi64(static_cast<long long>(mask))));
     }
+
+    GNOMON_LANES doubles subtract(doubles a, doubles b) noexcept { return _mm512_sub_pd(a, b); }
+    GNOMON_LANES doubles smaller(doubles a, doubles b) noexcept { return _mm512_maskz_min_pd(eight, a, b); }
+    GNOMON_LANES doubles larger(doubles a, doubles b) noexcept { return _mm512_maskz_max_pd(eight, a, b); }
+    GNOMON_LANES doubles truncate(doubles a) noexcept {
+        return _mm512_maskz_cvtepi32_pd(eight, _mm512_maskz_cvttpd_epi32(eight, a));
+    }
+    GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept { return _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ); }
+    GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
 
     template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {
         if constexpr (std::same_as<Channel, unorm8>) {
@@ -165,11 +212,20 @@ struct avx512 {
         }
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
-        if constexpr (std::same_as<Channel, half16>)
-            _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
-                                _mm512_maskz_cvtps_ph(all, a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
-        else
-            store(to, add(a, _mm512_setzero_ps()));
+        if constexpr (Channel::whole_codes) {
+            const ints whole = _mm512_maskz_cvttps_epi32(all, a);
+            if constexpr (std::same_as<Channel, unorm8>) {
+                _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm512_maskz_cvtepi32_epi8(all, whole));
+            } else {
+                _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_maskz_cvtepi32_epi16(all, whole));
+            }
+        } else {
+            if constexpr (std::same_as<Channel, half16>)
+                _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                                    _mm512_maskz_cvtps_ph(all, a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
+            else
+                store(to, add(a, _mm512_setzero_ps()));
+        }
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, doubles a) noexcept {
         if constexpr (std::same_as<Channel, unorm8>) {
@@ -187,6 +243,26 @@ struct avx512 {
             _mm256_storeu_ps(to, _mm256_add_ps(_mm512_maskz_cvtpd_ps(eight, a), _mm256_setzero_ps()));
         }
     }
+    GNOMON_LANES doubles store_floats(float* to, doubles a) noexcept {
+        const __m256 values = _mm256_add_ps(_mm512_maskz_cvtpd_ps(eight, a), _mm256_setzero_ps());
+        _mm256_storeu_ps(to, values);
+        return _mm512_maskz_cvtps_pd(eight, values);
+    }
+    template <channel Channel>
+    GNOMON_LANES_VOID void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
+        constexpr int bits = 8 * sizeof(typename Channel::storage), full = (1 << bits) - 1;
+        const __mmask8 asked = static_cast<__mmask8>(where);
+        const __m256i code = _mm512_maskz_cvttpd_epi32(eight, codes), depth = _mm256_set1_epi32(full);
+        const __m256i old =
+            bits == 8 ? _mm256_cvtepu16_epi32(_mm_maskz_loadu_epi16(asked, to)) : _mm256_maskz_loadu_epi32(asked, to);
+        const __mmask8 take = _kor_mask8(_mm256_mask_cmpgt_epi32_mask(asked, code, _mm256_and_si256(old, depth)),
+                                         _mm256_mask_testn_epi32_mask(asked, old, _mm256_slli_epi32(depth, bits)));
+        const __m256i pairs = _mm256_or_si256(code, _mm256_slli_epi32(depth, bits));
+        if constexpr (bits == 8)
+            _mm_mask_storeu_epi16(to, take, _mm256_maskz_cvtepi32_epi16(eight, pairs));
+        else
+            _mm256_mask_storeu_epi32(to, take, pairs);
+    }
 
   private:
     /// Word 0, 2, 4, 6 of each 16 bytes of the first of two registers, then of the second.
@@ -197,6 +273,10 @@ struct avx512 {
     }
     static constexpr __mmask8 eight = 0xFF;
     static constexpr __mmask16 all = 0xFFFF; // g++ 12 warns of the undefined register that the forms without a mask begin with
+    GNOMON_LANES floats channel_of_pairs(floats a, floats b, int c) noexcept {
+        const ints even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+        return _mm512_permutex2var_ps(a, c == 0 ? even : _mm512_or_si512(even, _mm512_set1_epi32(1)), b);
+    }
     GNOMON_LANES floats number(ints a) noexcept { return _mm512_maskz_cvtepi32_ps(all, a); }
     /// `a` where the mask has ones, `b` where it has none.
     GNOMON_LANES ints chosen(ints mask, ints a, ints b) noexcept { return _mm512_ternarylogic_epi32(mask, a, b, 0xCA); }

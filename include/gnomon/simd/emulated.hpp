@@ -154,6 +154,78 @@ template <int Bytes> struct emulated {
     /// Nothing. Where a compiler would sum products as a tree, which takes more registers than there are, it keeps their order.
     static void settle(ints&) noexcept {}
 
+    /// 16 bits, unsigned: bits of either; a - b modulo 2^16, and 0 instead of less; both halves of a product.
+    [[nodiscard]] static ints either(ints a, ints b) noexcept {
+        return each<std::uint8_t>([&](int i) { return a.byte[i] | b.byte[i]; });
+    }
+    [[nodiscard]] static ints subtract16(ints a, ints b) noexcept {
+        return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(a, i) - at<std::uint16_t>(b, i); });
+    }
+    [[nodiscard]] static ints subtract_to_zero16(ints a, ints b) noexcept {
+        return each<std::uint16_t>([&](int i) {
+            const int difference = at<std::uint16_t>(a, i) - at<std::uint16_t>(b, i);
+            return difference > 0 ? difference : 0;
+        });
+    }
+    [[nodiscard]] static ints multiply_low16(ints a, ints b) noexcept {
+        return each<std::uint16_t>([&](int i) { return std::uint32_t{at<std::uint16_t>(a, i)} * at<std::uint16_t>(b, i); });
+    }
+    [[nodiscard]] static ints multiply_high16(ints a, ints b) noexcept {
+        return each<std::uint16_t>([&](int i) { return std::uint32_t{at<std::uint16_t>(a, i)} * at<std::uint16_t>(b, i) >> 16; });
+    }
+    template <int Bits> [[nodiscard]] static ints shift_left16(ints a) noexcept {
+        return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(a, i) << Bits; });
+    }
+    template <int Bits> [[nodiscard]] static ints shift_right16(ints a) noexcept {
+        return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(a, i) >> Bits; });
+    }
+    /// 16 bits, unsigned: all ones where a > b, else nothing; and there the upper byte of `values`, as a number of 16 bits.
+    [[nodiscard]] static ints greater16(ints a, ints b) noexcept {
+        return each<std::uint16_t>([&](int i) { return at<std::uint16_t>(a, i) > at<std::uint16_t>(b, i) ? 0xFFFF : 0; });
+    }
+    [[nodiscard]] static ints upper_where_greater16(ints values, ints a, ints b) noexcept {
+        return each<std::uint16_t>(
+            [&](int i) { return at<std::uint16_t>(a, i) > at<std::uint16_t>(b, i) ? at<std::uint16_t>(values, i) >> 8 : 0; });
+    }
+    /// Are any 16 bits the same in `a` and `b`, or in `c` and `d`?
+    [[nodiscard]] static bool any_equal16(ints a, ints b, ints c, ints d) noexcept {
+        bool any = false;
+        for (int i = 0; i < Bytes / 2; ++i)
+            any |= at<std::uint16_t>(a, i) == at<std::uint16_t>(b, i) || at<std::uint16_t>(c, i) == at<std::uint16_t>(d, i);
+        return any;
+    }
+
+    /// Bits of both; and 32 bits, signed, modulo 2^32.
+    [[nodiscard]] static ints both(ints a, ints b) noexcept {
+        return each<std::uint8_t>([&](int i) { return a.byte[i] & b.byte[i]; });
+    }
+    [[nodiscard]] static ints multiply32(ints a, ints b) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) * at<std::uint32_t>(b, i); });
+    }
+    [[nodiscard]] static ints lesser32(ints a, ints b) noexcept {
+        return each<std::int32_t>([&](int i) { return lesser(at<std::int32_t>(a, i), at<std::int32_t>(b, i)); });
+    }
+    [[nodiscard]] static ints greater32(ints a, ints b) noexcept {
+        return each<std::int32_t>([&](int i) { return gnomon::greater(at<std::int32_t>(a, i), at<std::int32_t>(b, i)); });
+    }
+    template <int Bits> [[nodiscard]] static ints shift_left32(ints a) noexcept {
+        return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) << Bits; });
+    }
+    /// 32 bits from each of so many bytes behind `from`, at any alignment.
+    [[nodiscard]] static ints gather32(const void* from, ints offsets) noexcept {
+        return each<std::uint32_t>(
+            [&](int i) { return copied<std::uint32_t>(static_cast<const std::byte*>(from) + at<std::int32_t>(offsets, i)); });
+    }
+    /// The largest whole number of 32 bits that is not greater; -2^31 of what is beyond them, and of NaN.
+    [[nodiscard]] static ints floor32(floats a) noexcept {
+        return each<std::int32_t>([&](int i) {
+            const float v = a.lane[i];
+            if (!(v >= -0x1p31f && v < 0x1p31f)) return std::int32_t{-0x7FFFFFFF - 1};
+            const auto whole = static_cast<std::int32_t>(v);
+            return static_cast<float>(whole) > v ? whole - 1 : whole;
+        });
+    }
+
     [[nodiscard]] static floats load(const float* from) noexcept { return copied<floats>(from); }
     static void store(float* to, floats a) noexcept { std::memcpy(to, &a, sizeof a); }
     [[nodiscard]] static floats repeat(float v) noexcept {
@@ -174,10 +246,12 @@ template <int Bytes> struct emulated {
     /// sum + a * b, the product rounded and then the sum, whatever a compiler may fuse.
     [[nodiscard]] static floats add_product(floats sum, floats a, floats b) noexcept {
         return of_floats<floats>([&](int i) {
-            return sum.lane[i] + static_cast<float>(static_cast<double>(a.lane[i]) * static_cast<double>(b.lane[i]));
+            float product = a.lane[i] * b.lane[i];
+            GNOMON_SETTLE(product);
+            return sum.lane[i] + product;
         });
     }
-    /// a / b, correctly rounded. \pre 1 / b is the float nearest to it, and `a` a whole number in [0, b], b = 255 or 65535
+    /// a / b, correctly rounded. \pre `a` is a whole number in [0, b], and b = 255, 65535, or 255 * 65536
     [[nodiscard]] static floats fraction(floats a, float b) noexcept {
         return of_floats<floats>([&](int i) { return a.lane[i] / b; });
     }
@@ -207,6 +281,16 @@ template <int Bytes> struct emulated {
         return of_floats<floats>([&](int i) { return Channel::code(from[i * Channels + c]); });
     }
 
+    /// Whole numbers of 32 bits as floats, rounded to nearest.
+    [[nodiscard]] static floats numbers(ints a) noexcept {
+        return of_floats<floats>([&](int i) { return static_cast<float>(at<std::int32_t>(a, i)); });
+    }
+    [[nodiscard]] static bool any(masks a) noexcept {
+        bool one = false;
+        for (int i = 0; i < float_lanes; ++i) one |= a.lane[i];
+        return one;
+    }
+
     [[nodiscard]] static doubles load(const double* from) noexcept { return copied<doubles>(from); }
     static void store(double* to, doubles a) noexcept { std::memcpy(to, &a, sizeof a); }
     [[nodiscard]] static doubles repeat(double v) noexcept {
@@ -230,25 +314,64 @@ template <int Bytes> struct emulated {
         return each([&](int i) { return std::bit_cast<double>((std::bit_cast<std::uint64_t>(a.lane[i]) + addend) & mask); });
     }
 
+    [[nodiscard]] static doubles subtract(doubles a, doubles b) noexcept {
+        return each([&](int i) { return a.lane[i] - b.lane[i]; });
+    }
+    /// The smaller and the larger of two; `b` if they are equal or one is NaN.
+    [[nodiscard]] static doubles smaller(doubles a, doubles b) noexcept {
+        return each([&](int i) { return a.lane[i] < b.lane[i] ? a.lane[i] : b.lane[i]; });
+    }
+    [[nodiscard]] static doubles larger(doubles a, doubles b) noexcept {
+        return each([&](int i) { return a.lane[i] > b.lane[i] ? a.lane[i] : b.lane[i]; });
+    }
+    /// Without what follows the point. \pre -2^31 < a < 2^31
+    [[nodiscard]] static doubles truncate(doubles a) noexcept {
+        return each([&](int i) { return static_cast<double>(static_cast<std::int32_t>(a.lane[i])); });
+    }
+    /// Bit i is set where lane i of `a` is greater.
+    [[nodiscard]] static unsigned greater_bits(doubles a, doubles b) noexcept {
+        unsigned bits = 0;
+        for (int i = 0; i < double_lanes; ++i) bits |= (a.lane[i] > b.lane[i] ? 1u : 0u) << i;
+        return bits;
+    }
+    /// Nothing. Where a compiler would fuse a product with the sum it goes into, it keeps the product's own rounding.
+    static void settle(doubles&) noexcept {}
+
     /// Codes of stored channels, exactly.
     template <channel Channel> [[nodiscard]] static doubles codes(const typename Channel::storage* from) noexcept {
         return each([&](int i) { return static_cast<double>(Channel::code(from[i])); });
     }
-    /// Stores floats in half16 or float32, rounded once; of a NaN only that it is one.
-    template <channel Channel> static void store_codes(typename Channel::storage* to, floats a) noexcept {
-        for (int i = 0; i < float_lanes; ++i) to[i] = Channel::store(static_cast<double>(a.lane[i]));
-    }
     /// Stores numbers rounded once: whole codes downwards, \pre within the code's range; half and float as `Channel::store`, but for
     /// what is left of a NaN, which is any NaN.
+    template <channel Channel> static void store_codes(typename Channel::storage* to, floats a) noexcept {
+        for (int i = 0; i < float_lanes; ++i) to[i] = stored<Channel>(static_cast<double>(a.lane[i]));
+    }
     template <channel Channel> static void store_codes(typename Channel::storage* to, doubles a) noexcept {
-        for (int i = 0; i < double_lanes; ++i)
-            if constexpr (Channel::whole_codes)
-                to[i] = static_cast<typename Channel::storage>(a.lane[i]);
-            else
-                to[i] = Channel::store(a.lane[i]);
+        for (int i = 0; i < double_lanes; ++i) to[i] = stored<Channel>(a.lane[i]);
+    }
+    /// Stores the nearest floats, -0 as 0, and returns them.
+    [[nodiscard]] static doubles store_floats(float* to, doubles a) noexcept {
+        store_codes<float32>(to, a);
+        return codes<float32>(to);
+    }
+    /// Casts onto texels of two channels that lie side by side, depth and mask, of whole codes: where a bit is set and the mask is 0
+    /// or the depth less than the code (rounded down), it becomes the depth, and the mask full. Nothing else is read or written.
+    template <channel Channel> static void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
+        for (int i = 0; i < double_lanes; ++i) {
+            const auto code = static_cast<typename Channel::storage>(codes.lane[i]);
+            if ((where >> i & 1) == 0 || (to[2 * i + 1] != 0 && code <= to[2 * i])) continue;
+            to[2 * i] = code;
+            to[2 * i + 1] = static_cast<typename Channel::storage>(Channel::scale);
+        }
     }
 
   private:
+    template <channel Channel> [[nodiscard]] static typename Channel::storage stored(double code) noexcept {
+        if constexpr (Channel::whole_codes)
+            return static_cast<typename Channel::storage>(code);
+        else
+            return Channel::store(code);
+    }
     template <typename T> [[nodiscard]] static T copied(const void* from) noexcept {
         T t;
         std::memcpy(&t, from, sizeof t);

@@ -4,7 +4,9 @@
 #include <gnomon/simd/avx2.hpp>
 #include <gnomon/simd/avx512.hpp>
 #include <gnomon/simd/emulated.hpp>
+#include <gnomon/simd/neon.hpp>
 #include <gnomon/simd/sse2.hpp>
+#include <gnomon/simd/wasm.hpp>
 
 #include <concepts>
 #include <cstdint>
@@ -62,6 +64,24 @@ concept simd_isa =
         { Isa::template repeat_last32<2>(i) } -> std::same_as<typename Isa::ints>;
         { Isa::template multiply_shift32<32>(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::settle(i) };
+        { Isa::either(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::subtract16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::subtract_to_zero16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::multiply_low16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::multiply_high16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_left16<8>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_right16<8>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::greater16(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::upper_where_greater16(i, i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::any_equal16(i, i, i, i) } -> std::same_as<bool>;
+        { Isa::both(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::multiply32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::lesser32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::greater32(i, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_left32<8>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::template shift_right32<8>(i) } -> std::same_as<typename Isa::ints>;
+        { Isa::gather32(memory, i) } -> std::same_as<typename Isa::ints>;
+        { Isa::floor32(f) } -> std::same_as<typename Isa::ints>;
         { Isa::load(static_cast<const float*>(numbers)) } -> std::same_as<typename Isa::floats>;
         { Isa::store(numbers, f) };
         { Isa::repeat(number) } -> std::same_as<typename Isa::floats>;
@@ -77,6 +97,9 @@ concept simd_isa =
         { Isa::both(m, m) } -> std::same_as<typename Isa::masks>;
         { Isa::keep(m, f) } -> std::same_as<typename Isa::floats>;
         { Isa::template codes_of<unorm8, 2>(codes, 0) } -> std::same_as<typename Isa::floats>;
+        { Isa::numbers(i) } -> std::same_as<typename Isa::floats>;
+        { Isa::any(m) } -> std::same_as<bool>;
+        { Isa::template store_codes<unorm8>(codes, f) };
         { Isa::load(static_cast<const double*>(wides)) } -> std::same_as<typename Isa::doubles>;
         { Isa::store(wides, d) };
         { Isa::repeat(wide) } -> std::same_as<typename Isa::doubles>;
@@ -85,9 +108,17 @@ concept simd_isa =
         { Isa::divide(d, d) } -> std::same_as<typename Isa::doubles>;
         { Isa::add_product(d, d, d) } -> std::same_as<typename Isa::doubles>;
         { Isa::add_and_mask(d, bits, bits) } -> std::same_as<typename Isa::doubles>;
+        { Isa::subtract(d, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::smaller(d, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::larger(d, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::truncate(d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::greater_bits(d, d) } -> std::same_as<unsigned>;
+        { Isa::settle(d) };
         { Isa::template codes<unorm8>(codes) } -> std::same_as<typename Isa::doubles>;
         { Isa::template store_codes<float32>(numbers, f) };
         { Isa::template store_codes<unorm8>(codes, d) };
+        { Isa::store_floats(numbers, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::template cast_pairs<unorm8>(codes, unsigned{}, d) };
     };
 
 /// Lanes that sum four products of bytes at once. Optional: filters of bytes are quicker by them.
@@ -96,8 +127,8 @@ concept sums_quads = simd_isa<Isa> && requires(typename Isa::ints i) {
     { Isa::add_dot8(i, i, i) } -> std::same_as<typename Isa::ints>;
 };
 
-/// Which lanes a processor has.
-enum class cpu_level { portable, sse2, avx2, avx512 };
+/// Which lanes a processor has: of x86 each level has those below it, elsewhere there is one.
+enum class cpu_level { portable, wasm128, neon, sse2, avx2, avx512 };
 
 namespace detail {
 
@@ -145,6 +176,10 @@ inline void ask_cpuid(std::uint32_t leaf, std::uint32_t (&r)[4]) noexcept { __cp
     const bool says_what_it_keeps = (leaf1[2] >> 27 & 1) != 0; // without OSXSAVE there is no xgetbv
     return level_of({leaf0[0], leaf1[2], leaf7[1], leaf7[2], says_what_it_keeps ? kept_registers() : 0});
 }
+#elif GNOMON_NEON
+[[nodiscard]] inline cpu_level ask_cpu() noexcept { return cpu_level::neon; }
+#elif GNOMON_WASM
+[[nodiscard]] inline cpu_level ask_cpu() noexcept { return cpu_level::wasm128; }
 #else
 [[nodiscard]] inline cpu_level ask_cpu() noexcept { return cpu_level::portable; }
 #endif

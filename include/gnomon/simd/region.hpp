@@ -34,9 +34,13 @@
 #define GNOMON_UNROLL(times)
 #endif
 
-// Keeps a sum where it stands: see emulated::settle.
+// Keeps a sum where it stands, see emulated::settle; and a product from being fused with what it is added to.
 #if defined(__GNUC__) && defined(__x86_64__)
 #define GNOMON_SETTLE(a) asm("" : "+v"(a))
+#elif defined(__GNUC__) && defined(__aarch64__)
+#define GNOMON_SETTLE(a) asm("" : "+w"(a))
+#elif defined(__GNUC__) && !defined(__wasm__)
+#define GNOMON_SETTLE(a) asm("" : "+m"(a))
 #else
 #define GNOMON_SETTLE(a) static_cast<void>(a)
 #endif
@@ -45,5 +49,15 @@
 #define GNOMON_X86 1
 #else
 #define GNOMON_X86 0
+#endif
+#if defined(__GNUC__) && defined(__ARM_NEON) && defined(__AARCH64EL__)
+#define GNOMON_NEON 1
+#else
+#define GNOMON_NEON 0
+#endif
+#if defined(__wasm_simd128__)
+#define GNOMON_WASM 1
+#else
+#define GNOMON_WASM 0
 #endif
 // clang-format on

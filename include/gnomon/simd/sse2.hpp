@@ -103,6 +103,46 @@ struct sse2 {
     }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
+    GNOMON_LANES ints either(ints a, ints b) noexcept { return _mm_or_si128(a, b); }
+    GNOMON_LANES ints subtract16(ints a, ints b) noexcept { return _mm_sub_epi16(a, b); }
+    GNOMON_LANES ints subtract_to_zero16(ints a, ints b) noexcept { return _mm_subs_epu16(a, b); }
+    GNOMON_LANES ints multiply_low16(ints a, ints b) noexcept { return _mm_mullo_epi16(a, b); }
+    GNOMON_LANES ints multiply_high16(ints a, ints b) noexcept { return _mm_mulhi_epu16(a, b); }
+    template <int Bits> GNOMON_LANES ints shift_left16(ints a) noexcept { return _mm_slli_epi16(a, Bits); }
+    template <int Bits> GNOMON_LANES ints shift_right16(ints a) noexcept { return _mm_srli_epi16(a, Bits); }
+    GNOMON_LANES ints greater16(ints a, ints b) noexcept {
+        const ints sign = _mm_set1_epi16(-32768);
+        return _mm_cmpgt_epi16(_mm_xor_si128(a, sign), _mm_xor_si128(b, sign));
+    }
+    GNOMON_LANES ints upper_where_greater16(ints values, ints a, ints b) noexcept {
+        const ints lit = _mm_cmpeq_epi16(_mm_subs_epu16(a, b), _mm_setzero_si128());
+        return _mm_srli_epi16(_mm_andnot_si128(lit, values), 8);
+    }
+    GNOMON_LANES bool any_equal16(ints a, ints b, ints c, ints d) noexcept {
+        return _mm_movemask_epi8(_mm_or_si128(_mm_cmpeq_epi16(a, b), _mm_cmpeq_epi16(c, d))) != 0;
+    }
+
+    GNOMON_LANES ints both(ints a, ints b) noexcept { return _mm_and_si128(a, b); }
+    GNOMON_LANES ints multiply32(ints a, ints b) noexcept {
+        const ints even = _mm_mul_epu32(a, b), odd = _mm_mul_epu32(_mm_srli_epi64(a, 32), _mm_srli_epi64(b, 32));
+        return _mm_unpacklo_epi32(_mm_shuffle_epi32(even, 0x08), _mm_shuffle_epi32(odd, 0x08));
+    }
+    GNOMON_LANES ints lesser32(ints a, ints b) noexcept { return chosen(_mm_cmpgt_epi32(a, b), b, a); }
+    GNOMON_LANES ints greater32(ints a, ints b) noexcept { return chosen(_mm_cmpgt_epi32(a, b), a, b); }
+    template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return _mm_slli_epi32(a, Bits); }
+    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
+        int offset[4], found[4];
+        store(offset, offsets);
+        for (int i = 0; i < 4; ++i) std::memcpy(&found[i], static_cast<const char*>(from) + offset[i], sizeof found[i]);
+        return load(found);
+    }
+    GNOMON_LANES ints floor32(floats a) noexcept { // of NaN and what is too little the maximum is -2^31, which stays as it is
+        const floats bounded = _mm_max_ps(a, _mm_set1_ps(-0x1p31f));
+        const ints whole = _mm_cvttps_epi32(bounded);
+        const ints up = _mm_castps_si128(_mm_cmpgt_ps(_mm_cvtepi32_ps(whole), bounded));
+        return _mm_add_epi32(whole, up);
+    }
+
     GNOMON_LANES floats load(const float* from) noexcept { return _mm_loadu_ps(from); }
     GNOMON_LANES_VOID void store(float* to, floats a) noexcept { _mm_storeu_ps(to, a); }
     GNOMON_LANES floats repeat(float v) noexcept { return _mm_set1_ps(v); }
@@ -136,10 +176,18 @@ struct sse2 {
             return _mm_cvtepi32_ps(c == 0 ? _mm_and_si128(pairs, _mm_set1_epi32(65535)) : _mm_srli_epi32(pairs, 16));
         } else if constexpr (std::same_as<Channel, float32> && Channels == 1) {
             return load(from);
+        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 1) {
+            const ints words = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+            return _mm_cvtepi32_ps(_mm_unpacklo_epi16(words, _mm_setzero_si128()));
+        } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
+            return c == 0 ? _mm_shuffle_ps(load(from), load(from + 4), 0x88) : _mm_shuffle_ps(load(from), load(from + 4), 0xDD);
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
     }
+
+    GNOMON_LANES floats numbers(ints a) noexcept { return _mm_cvtepi32_ps(a); }
+    GNOMON_LANES bool any(masks a) noexcept { return _mm_movemask_ps(a) != 0; }
 
     GNOMON_LANES doubles load(const double* from) noexcept { return _mm_loadu_pd(from); }
     GNOMON_LANES_VOID void store(double* to, doubles a) noexcept { _mm_storeu_pd(to, a); }
@@ -153,16 +201,38 @@ struct sse2 {
         return _mm_castsi128_pd(_mm_and_si128(sum, _mm_set1_epi64x(static_cast<long long>(mask))));
     }
 
+    GNOMON_LANES doubles subtract(doubles a, doubles b) noexcept { return _mm_sub_pd(a, b); }
+    GNOMON_LANES doubles smaller(doubles a, doubles b) noexcept { return _mm_min_pd(a, b); }
+    GNOMON_LANES doubles larger(doubles a, doubles b) noexcept { return _mm_max_pd(a, b); }
+    GNOMON_LANES doubles truncate(doubles a) noexcept { return _mm_cvtepi32_pd(_mm_cvttpd_epi32(a)); }
+    GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept {
+        return static_cast<unsigned>(_mm_movemask_pd(_mm_cmpgt_pd(a, b)));
+    }
+    GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
+
     template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {
         return _mm_set_pd(static_cast<double>(Channel::code(from[1])), static_cast<double>(Channel::code(from[0])));
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
-        if constexpr (std::same_as<Channel, float32>) {
-            store(to, add(a, _mm_setzero_ps()));
+        if constexpr (Channel::whole_codes) {
+            const ints whole = _mm_cvttps_epi32(a);
+            if constexpr (std::same_as<Channel, unorm8>) {
+                const ints words = _mm_packs_epi32(whole, whole);
+                const int four = _mm_cvtsi128_si32(_mm_packus_epi16(words, words));
+                std::memcpy(to, &four, sizeof four);
+            } else {
+                const ints less = _mm_sub_epi32(whole, _mm_set1_epi32(32768)); // what is packed is signed
+                _mm_storel_epi64(reinterpret_cast<__m128i*>(to),
+                                 _mm_xor_si128(_mm_packs_epi32(less, less), _mm_set1_epi16(-32768)));
+            }
         } else {
-            emulated<bytes>::floats numbers;
-            store(numbers.lane, a);
-            emulated<bytes>::template store_codes<Channel>(to, numbers);
+            if constexpr (std::same_as<Channel, float32>) {
+                store(to, add(a, _mm_setzero_ps()));
+            } else {
+                emulated<bytes>::floats numbers;
+                store(numbers.lane, a);
+                emulated<bytes>::template store_codes<Channel>(to, numbers);
+            }
         }
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, doubles a) noexcept {
@@ -173,8 +243,21 @@ struct sse2 {
             else
                 to[i] = Channel::store(lane[i]);
     }
+    GNOMON_LANES doubles store_floats(float* to, doubles a) noexcept {
+        const floats two = _mm_add_ps(_mm_cvtpd_ps(a), _mm_setzero_ps());
+        _mm_storel_pi(reinterpret_cast<__m64*>(to), two);
+        return _mm_cvtps_pd(two);
+    }
+    template <channel Channel>
+    GNOMON_LANES_VOID void cast_pairs(typename Channel::storage* to, unsigned where, doubles codes) noexcept {
+        emulated<bytes>::template cast_pairs<Channel>(to, where,
+                                                      {{_mm_cvtsd_f64(codes), _mm_cvtsd_f64(_mm_unpackhi_pd(codes, codes))}});
+    }
 
   private:
+    GNOMON_LANES ints chosen(ints mask, ints a, ints b) noexcept {
+        return _mm_or_si128(_mm_and_si128(mask, a), _mm_andnot_si128(mask, b));
+    }
     GNOMON_LANES doubles upper(floats a) noexcept { return _mm_cvtps_pd(_mm_movehl_ps(a, a)); }
 };
 

@@ -1,0 +1,193 @@
+// gnomon: soft shadow maps. Triangles onto a map, in lanes: the texels of geometry/rasterize.hpp, bit for bit.
+#pragma once
+
+#include <gnomon/backend/simd.hpp>
+#include <gnomon/geometry/raster_job.hpp>
+
+#define GNOMON_ON on_any
+#include <gnomon/geometry/raster_batch.hpp>
+#include <gnomon/geometry/raster_rows.hpp>
+#undef GNOMON_ON
+#if GNOMON_X86
+GNOMON_TARGET_BEGIN(GNOMON_AVX2)
+#define GNOMON_ON on_avx2
+#include <gnomon/geometry/raster_batch.hpp>
+#include <gnomon/geometry/raster_rows.hpp>
+#undef GNOMON_ON
+GNOMON_TARGET_END
+GNOMON_TARGET_BEGIN(GNOMON_AVX512)
+#define GNOMON_ON on_avx512
+#include <gnomon/geometry/raster_batch.hpp>
+#include <gnomon/geometry/raster_rows.hpp>
+#undef GNOMON_ON
+GNOMON_TARGET_END
+#endif
+
+namespace gnomon::inline GNOMON_BUILD {
+
+namespace detail {
+
+/// Each target's code goes by its own name.
+template <typename Isa> struct raster_on {
+    using triangles = on_any::rasterizer<Isa>;
+    using called = on_any::called_row<Isa>;
+    template <typename Texel> using cast = on_any::cast_row<Isa, Texel>;
+    template <typename Texel> using bound = on_any::bound_row<Isa, Texel>;
+};
+#if GNOMON_X86
+template <> struct raster_on<avx2> {
+    using triangles = on_avx2::rasterizer<avx2>;
+    using called = on_avx2::called_row<avx2>;
+    template <typename Texel> using cast = on_avx2::cast_row<avx2, Texel>;
+    template <typename Texel> using bound = on_avx2::bound_row<avx2, Texel>;
+};
+template <> struct raster_on<avx512> {
+    using triangles = on_avx512::rasterizer<avx512>;
+    using called = on_avx512::called_row<avx512>;
+    template <typename Texel> using cast = on_avx512::cast_row<avx512, Texel>;
+    template <typename Texel> using bound = on_avx512::bound_row<avx512, Texel>;
+};
+#endif
+
+/// f.template operator()<Lanes>() for the lanes that Isa names.
+template <typename Isa, typename F> auto for_lanes(F&& f) noexcept {
+    if constexpr (std::same_as<Isa, best_isa>)
+        return with_lanes(best_lanes(), f);
+    else
+        return f.template operator()<Isa>();
+}
+
+/// Are these texels encoded in lanes?
+template <typename Isa, typename Texel>
+inline constexpr bool cast_in_lanes = has_lanes<Isa> && channel_of_lanes<typename Texel::channel_type> &&
+                                      std::same_as<typename Texel::representation_type, depth_mask>;
+
+inline void draw_cut(const raster_job& job, int first, touched_texels& touched) {
+    draw_triangle(*job.mesh, first, job.to_map, job.handedness, *job.light, job.target, job.side, job,
+                  [&](const triangle_depth& depth, int y, int x0, int x1) { job.run(job, depth, y, x0, x1, touched); });
+}
+
+/// `of` says which rows: of.template operator()<Lanes>() is one of the kinds of raster_on<Lanes>. They read what `rows` points to.
+template <typename Isa, typename Where, typename Of>
+light_footprint rasterize_rows(const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side,
+                               const Where& where, void* rows, void (*row)(void*, int, int, int, const float*), const Of& of) {
+    target = clip(target, light.size());
+    if (target.empty()) return {};
+    const glm::dmat4 to_map = light.matrix() * mesh.model;
+    raster_job job{.mesh = &mesh,
+                   .light = &light,
+                   .to_map = to_map,
+                   .handedness = volume(to_map),
+                   .perspective = light.perspective(),
+                   .divides = detail::row(to_map, 3) != glm::dvec4(0.0, 0.0, 0.0, 1.0),
+                   .near_w = light.near_w(),
+                   .per_w = depth_surface::per_w(light),
+                   .target = target,
+                   .side = side,
+                   .row = row,
+                   .rows = rows,
+                   .touches = nullptr,
+                   .where = &where,
+                   .cut = draw_cut,
+                   .run = nullptr};
+    if constexpr (!std::same_as<Where, touches_everything>)
+        job.touches = [](const void* marks, texel_rect r) { return touches(*static_cast<const Where*>(marks), r); };
+    const auto draw = for_lanes<Isa>([&]<typename Lanes>() {
+        using triangles = typename raster_on<Lanes>::triangles;
+        using row_kind = typename decltype(of.template operator()<Lanes>())::type;
+        job.run = triangles::template draw_run<row_kind>;
+        return &triangles::template run<row_kind>;
+    });
+    return draw(job);
+}
+
+} // namespace detail
+
+/// rasterize of geometry/rasterize.hpp in lanes: the same texels at the same depths in the same order, bit for bit.
+template <typename Isa, typename Sink, marked_texels Where = touches_everything>
+    requires requires(Sink& sink, int i, float depth) { sink(i, i, depth); }
+light_footprint rasterize(simd<Isa>, const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side,
+                          Sink&& sink, const Where& where = {}) {
+    if constexpr (detail::has_lanes<Isa>) {
+        using sink_type = std::remove_reference_t<Sink>;
+        const auto row = [](void* object, int y, int x0, int x1, const float* z) {
+            for (int x = x0; x < x1; ++x) (**static_cast<sink_type**>(object))(x, y, z[x - x0]);
+        };
+        sink_type* object = &sink;
+        return detail::rasterize_rows<Isa>(mesh, light, target, side, where, &object, row, []<typename Lanes>() {
+            return std::type_identity<typename detail::raster_on<Lanes>::called>{};
+        });
+    } else {
+        return rasterize(mesh, light, target, side, sink, where);
+    }
+}
+
+/// cast_triangles of geometry/rasterize.hpp in lanes, bit for bit: cast_triangles(simd<>{}, texels, mesh, light).
+template <typename Isa, texel_format Texel>
+light_footprint cast_triangles(simd<Isa> run, image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
+                               faces side = faces::both) {
+    if constexpr (detail::cast_in_lanes<Isa, Texel>) {
+        detail::texel_target<Texel> target{texels, Texel::caster(0.0f)};
+        return detail::rasterize_rows<Isa>(
+            mesh, light, whole(texels.size()), side, touches_everything{}, &target, nullptr,
+            []<typename Lanes>() { return std::type_identity<typename detail::raster_on<Lanes>::template cast<Texel>>{}; });
+    } else {
+        return rasterize(run, mesh, light, whole(texels.size()), side,
+                         [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s)); });
+    }
+}
+
+/// The same for casters that let 1 - `opacity` of the light through.
+template <typename Isa, texel_format Texel>
+    requires(Texel::effects.translucency)
+light_footprint cast_triangles(simd<Isa> run, image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
+                               float opacity, faces side = faces::both) {
+    if constexpr (detail::cast_in_lanes<Isa, Texel>) {
+        detail::texel_target<Texel> target{texels, Texel::caster(0.0f, opacity)};
+        return detail::rasterize_rows<Isa>(
+            mesh, light, whole(texels.size()), side, touches_everything{}, &target, nullptr,
+            []<typename Lanes>() { return std::type_identity<typename detail::raster_on<Lanes>::template cast<Texel>>{}; });
+    } else {
+        return rasterize(run, mesh, light, whole(texels.size()), side,
+                         [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s, opacity)); });
+    }
+}
+
+/// bound_triangles of geometry/rasterize.hpp in lanes, bit for bit.
+template <typename Isa, texel_format Texel, marked_texels Where = touches_everything>
+    requires(Texel::effects.far_bound)
+light_footprint bound_triangles(simd<Isa> run, image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
+                                faces side = faces::both, const Where& where = {}, texel_rect region = everywhere) {
+    if constexpr (detail::cast_in_lanes<Isa, Texel>) {
+        detail::texel_target<Texel> target{texels, Texel::clear()};
+        return detail::rasterize_rows<Isa>(
+            mesh, light, clip(region, texels.size()), side, where, &target, nullptr,
+            []<typename Lanes>() { return std::type_identity<typename detail::raster_on<Lanes>::template bound<Texel>>{}; });
+    } else {
+        const auto bound = [&](int x, int y, float z) {
+            if (z >= 0.0f) texels(x, y).bound(z);
+        };
+        return rasterize(run, mesh, light, clip(region, texels.size()), side, bound, where);
+    }
+}
+
+/// @name The plain loops, for code that is given a backend: cast_triangles(scalar{}, texels, mesh, light).
+/// @{
+template <typename... Given>
+    requires requires(Given&&... given) { rasterize(given...); }
+light_footprint rasterize(scalar, Given&&... given) {
+    return rasterize(given...);
+}
+template <typename... Given>
+    requires requires(Given&&... given) { cast_triangles(given...); }
+light_footprint cast_triangles(scalar, Given&&... given) {
+    return cast_triangles(given...);
+}
+template <typename... Given>
+    requires requires(Given&&... given) { bound_triangles(given...); }
+light_footprint bound_triangles(scalar, Given&&... given) {
+    return bound_triangles(given...);
+}
+/// @}
+
+} // namespace gnomon::inline GNOMON_BUILD

@@ -1,0 +1,172 @@
+// Decisions in lanes on depths and intensities in codes against the oracle, bit for bit: every width up to two registers and a bit, any
+// stride, alignment and rule, results in place; and for bytes every pair there is, at the codes where its shadow begins.
+#include <gnomon/backend/simd.hpp>
+
+#include "../support/formats.hpp"
+#include "../support/lanes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace {
+using gnomon::image_view;
+using gnomon::rg16;
+using gnomon::rg8;
+using gnomon::rule;
+using gnomon::simd;
+using gnomon::strided_span;
+using test::dice;
+using test::fill_with_bits;
+using test::for_each_isa;
+
+/// What rows hold.
+template <typename T, typename D, typename I> struct row_of {
+    using texel = T;
+    using depth = D;
+    using intensity = I;
+};
+using byte_row = row_of<rg8, std::uint16_t, std::uint8_t>;
+using byte_row_of_floats = row_of<rg8, float, std::uint8_t>;
+using word_row = row_of<rg16, std::uint16_t, std::uint16_t>;
+using float_row = row_of<gnomon::rg32f, float, float>;
+using float_row_of_codes = row_of<gnomon::rg32f, std::uint16_t, float>;
+using half_row = row_of<gnomon::rg16f, std::uint16_t, std::uint8_t>;
+using bounded_row = row_of<gnomon::rgb8, std::uint16_t, std::uint8_t>;
+using translucent_row = row_of<gnomon::rga8, std::uint16_t, std::uint8_t>;
+
+const std::vector<rule>& rules() {
+    static const std::vector<rule> all{
+        {},
+        {.caster = gnomon::unbiased},
+        {.caster = gnomon::towards_shadow},
+        {.caster = {.roundings = 1000, .depth = 0.125f}},
+        {.caster = {.roundings = 0, .depth = -0.125f}},
+        {.caster = {.towards = gnomon::bias_towards::shadow, .roundings = 7, .depth = 0.25f}},
+        {.caster = {.towards = gnomon::bias_towards::shadow, .roundings = 0, .depth = -2.0f}},
+        {.caster = {.depth = 2.0f}},
+        {.caster = {.caster_is_code = true}},
+        {.lit_beyond = true},
+    };
+    return all;
+}
+
+template <typename Row> float any_depth(dice& roll, const typename Row::texel& texel) {
+    const float s = gnomon::caster_depth(texel);
+    return roll.one_in(3) ? roll.unit()
+                          : s + static_cast<float>(roll(-3, 3)) / 65535.0f + (roll.one_in(2) ? 129.0f / 65535.0f : 0.0f);
+}
+void set(float& z, float value) { z = value; }
+void set(std::uint16_t& z, float value) { z = gnomon::unorm16::encode(static_cast<double>(value)); }
+
+/// `count` elements that lie `spread` apart in `memory`.
+template <typename T> strided_span<T> spread_over(T* memory, int count, int spread) {
+    return {memory, count, static_cast<std::ptrdiff_t>(sizeof(T)) * spread};
+}
+} // namespace
+
+TYPE_TO_STRING_AS("bytes, depths of 16 bits", byte_row);
+TYPE_TO_STRING_AS("bytes, float depths", byte_row_of_floats);
+TYPE_TO_STRING_AS("16 bits, depths of 16 bits", word_row);
+TYPE_TO_STRING_AS("floats", float_row);
+TYPE_TO_STRING_AS("floats, depths of 16 bits", float_row_of_codes);
+TYPE_TO_STRING_AS("halves", half_row);
+TYPE_TO_STRING_AS("far bounds", bounded_row);
+TYPE_TO_STRING_AS("translucent", translucent_row);
+
+TEST_CASE_TEMPLATE("lanes decide on codes as the oracle does: every width to 140, any stride, alignment and rule", Row, byte_row,
+                   byte_row_of_floats, word_row, float_row, float_row_of_codes, half_row, bounded_row, translucent_row) {
+    using Texel = typename Row::texel;
+    using Depth = typename Row::depth;
+    using Intensity = typename Row::intensity;
+    dice roll(421);
+    std::vector<Texel> texels(430);
+    std::vector<Depth> z(430);
+    fill_with_bits(roll, image_view<Texel>(texels.data(), {430, 1}));
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        if (!roll.one_in(4)) texels[i] = test::any_caster<Texel>(roll);
+        set(z[i], roll.one_in(16) ? static_cast<float>(roll(0, 1)) : any_depth<Row>(roll, texels[i]));
+    }
+    for_each_isa([&]<typename Isa>() {
+        int wrong = 0, dark = 0;
+        for (int count = 0; count <= 140; count += count < 70 ? 1 : 7)
+            for (const auto& [of_texels, of_z, of_intensity] : {std::array{1, 1, 1}, {3, 1, 1}, {1, 2, 1}, {1, 1, 2}, {2, 3, 2}}) {
+                const int first = roll(0, 3);
+                const auto some_texels = spread_over<const Texel>(texels.data() + first, count, of_texels);
+                const auto some_z = spread_over<const Depth>(z.data() + first, count, of_z);
+                const rule& r = rules()[static_cast<std::size_t>(count) % rules().size()];
+                std::vector<Intensity> expected(300, Intensity{77}), made = expected;
+                gnomon::receive(some_texels, some_z, spread_over(expected.data() + first, count, of_intensity), r);
+                gnomon::receive(simd<Isa>{}, some_texels, some_z, spread_over(made.data() + first, count, of_intensity), r);
+                wrong += std::memcmp(expected.data(), made.data(), expected.size() * sizeof(Intensity)) != 0;
+                for (const Intensity intensity : made) dark += intensity > Intensity{} && !gnomon::same(intensity, Intensity{77});
+            }
+        CHECK(wrong == 0);
+        CHECK(dark > (Texel::effects.far_bound ? 10 : 1000));
+    });
+}
+
+TEST_CASE("lanes decide every pair of bytes as the oracle does, at the codes where its shadow begins, one before and one after, "
+          "under every rule") {
+    for (const rule& r : rules()) {
+        std::vector<rg8> texels;
+        std::vector<std::uint16_t> z;
+        for (int mask = 0; mask < 256; ++mask)
+            for (int depth = 0; depth < 256; ++depth) {
+                const rg8 t{{static_cast<std::uint8_t>(depth), static_cast<std::uint8_t>(mask)}};
+                int lit = 0, dark = 65536;
+                while (mask > 0 && dark - lit > 1) {
+                    const int middle = (lit + dark) / 2;
+                    const bool is_dark =
+                        gnomon::shadow_as<std::uint8_t>(read(t), gnomon::depth16{static_cast<std::uint16_t>(middle)}, r) > 0;
+                    (is_dark ? dark : lit) = middle;
+                }
+                for (const int code : {0, lit - 1, lit, lit + 1, lit + 2, 65535}) {
+                    texels.push_back(t);
+                    z.push_back(static_cast<std::uint16_t>(code < 0 ? 0 : (code > 65535 ? 65535 : code)));
+                }
+            }
+        std::vector<std::uint8_t> expected(z.size()), made(z.size());
+        gnomon::receive(texels, z, expected, r);
+        for_each_isa([&]<typename Isa>() {
+            gnomon::receive(simd<Isa>{}, texels, z, made, r);
+            CHECK(expected == made);
+        });
+    }
+}
+
+TEST_CASE_TEMPLATE("results may take the place of what they come from, in lanes as in the oracle", Row, byte_row, word_row,
+                   float_row) {
+    using Texel = typename Row::texel;
+    using Depth = typename Row::depth;
+    using Intensity = typename Row::intensity;
+    dice roll(423);
+    std::vector<Texel> texels(333);
+    std::vector<Depth> z(333);
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        texels[i] = test::any_caster<Texel>(roll);
+        set(z[i], any_depth<Row>(roll, texels[i]));
+    }
+    std::vector<Intensity> apart(333);
+    gnomon::receive(texels, z, apart);
+    for_each_isa([&]<typename Isa>() {
+        auto in_texels = texels, packed = texels;
+        auto in_depths = z;
+        const auto first_of = [](auto& memory) { return reinterpret_cast<Intensity*>(memory.data()); };
+        gnomon::receive(simd<Isa>{}, in_texels, z, strided_span<Intensity>(first_of(in_texels), 333, sizeof(Texel)));
+        gnomon::receive(simd<Isa>{}, packed, z, strided_span<Intensity>(first_of(packed), 333)); // element i lies before texel i
+        gnomon::receive(simd<Isa>{}, texels, in_depths, strided_span<Intensity>(first_of(in_depths), 333, sizeof(Depth)));
+        int wrong = 0;
+        for (int i = 0; i < 333; ++i) {
+            const Intensity expected = apart[static_cast<std::size_t>(i)];
+            wrong += std::memcmp(&in_texels[static_cast<std::size_t>(i)], &expected, sizeof expected) != 0;
+            wrong += std::memcmp(first_of(packed) + i, &expected, sizeof expected) != 0;
+            wrong += std::memcmp(&in_depths[static_cast<std::size_t>(i)], &expected, sizeof expected) != 0;
+        }
+        CHECK(wrong == 0);
+    });
+}

@@ -1,0 +1,186 @@
+// Receivers anywhere, blended and decided in lanes, against the oracle, bit for bit: every position there is around a texel, on the map,
+// across each of its borders and far away; every width, any stride and rule; and nothing beside the map is read.
+#include <gnomon/backend/simd.hpp>
+
+#include "../support/bits.hpp"
+#include "../support/formats.hpp"
+#include "../support/lanes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace {
+using gnomon::extent;
+using gnomon::image;
+using gnomon::image_view;
+using gnomon::rg8;
+using gnomon::rule;
+using gnomon::simd;
+using gnomon::strided_span;
+using test::dice;
+using test::for_each_isa;
+
+const rule rules[] = {
+    {},
+    {.caster = gnomon::unbiased},
+    {.caster = gnomon::towards_shadow},
+    {.caster = {.roundings = 2}},
+    {.caster = {.roundings = 0, .depth = -0.125f}},
+    {.caster = {.towards = gnomon::bias_towards::shadow, .roundings = 0, .depth = 0.25f}},
+    {.caster = {.depth = 0.5f, .caster_is_code = true}, .lit_beyond = true},
+};
+
+struct points {
+    std::vector<float> x, y, z;
+    std::vector<std::uint16_t> codes;
+};
+
+/// Around the map: on every 1/512 texel and a float beside it, nowhere, and at depths around that of the blend.
+points some_points(dice& roll, const image<rg8>& map, int count) {
+    constexpr float odd[] = {
+        test::infinity<float>, -test::infinity<float>, test::nan<float>, 3e38f, -3e38f, 4194304.0f, -0.0f, 1e-30f, -1e-30f};
+    points p;
+    const auto position = [&](int size) {
+        if (roll.one_in(40)) return odd[roll(0, 8)];
+        const float at = static_cast<float>(roll(-2 * 512, (size + 2) * 512)) / 512.0f;
+        return roll.one_in(2) ? at : (roll.one_in(2) ? test::up(at) : test::down(at));
+    };
+    for (int i = 0; i < count; ++i) {
+        p.x.push_back(position(map.size().width));
+        p.y.push_back(position(map.size().height));
+        const auto f = gnomon::sample(map.view(), p.x.back(), p.y.back());
+        const float s = gnomon::caster_depth(f),
+                    moved = roll.one_in(2) ? 0.5f / 255.0f + 0.5f / 255.0f / static_cast<float>(f.mask() + 0.5) : 0.0f;
+        const float z = roll.one_in(8) ? odd[roll(0, 8)]
+                                       : (roll.one_in(3) ? roll.unit() : s + moved + static_cast<float>(roll(-2, 2)) * 0x1p-24f);
+        p.z.push_back(z);
+        p.codes.push_back(roll.one_in(16)
+                              ? static_cast<std::uint16_t>(65535 * roll(0, 1))
+                              : static_cast<std::uint16_t>(gnomon::unorm16::encode(static_cast<double>(z)) + roll(-1, 1)));
+    }
+    return p;
+}
+
+template <typename Depth> const std::vector<Depth>& depths_of(const points& p) {
+    if constexpr (std::is_same_v<Depth, float>)
+        return p.z;
+    else
+        return p.codes;
+}
+template <typename D, typename I> struct of_numbers {
+    using depth = D;
+    using intensity = I;
+};
+using floats_only = of_numbers<float, float>;
+using floats_to_bytes = of_numbers<float, std::uint8_t>;
+using codes_to_bytes = of_numbers<std::uint16_t, std::uint8_t>;
+using codes_to_floats = of_numbers<std::uint16_t, float>;
+using codes_to_words = of_numbers<std::uint16_t, std::uint16_t>;
+} // namespace
+
+TYPE_TO_STRING_AS("floats to floats", floats_only);
+TYPE_TO_STRING_AS("floats to bytes", floats_to_bytes);
+TYPE_TO_STRING_AS("codes to bytes", codes_to_bytes);
+TYPE_TO_STRING_AS("codes to floats", codes_to_floats);
+TYPE_TO_STRING_AS("codes to 16 bits", codes_to_words);
+
+TEST_CASE_TEMPLATE("receivers anywhere are decided in lanes as by the oracle: any position, map, rule and depth", Numbers,
+                   floats_only, floats_to_bytes, codes_to_bytes, codes_to_floats, codes_to_words) {
+    using Intensity = typename Numbers::intensity;
+    dice roll(431);
+    for (const extent size : {extent{23, 17}, {2, 2}, {1, 9}, {9, 1}, {300, 3}, {0, 0}}) {
+        image<rg8> map = test::noise<rg8>(roll, size, 2);
+        if (!size.empty()) test::fill_with_bits(roll, map.view().part({0, 0, size.width / 3, size.height / 2})); // e > m too
+        const points p = some_points(roll, map, 3000);
+        const auto& z = depths_of<typename Numbers::depth>(p);
+        for (const rule& r : rules) {
+            std::vector<Intensity> expected(p.x.size()), made(p.x.size());
+            gnomon::receive(map.view(), p.x, p.y, z, expected, r);
+            int dark = 0;
+            for (const Intensity intensity : expected) dark += intensity > Intensity{};
+            CHECK((size.width < 20 || dark > 50));
+            for_each_isa([&]<typename Isa>() {
+                gnomon::receive(simd<Isa>{}, map.view(), p.x, p.y, z, made, r);
+                CHECK(std::memcmp(expected.data(), made.data(), made.size() * sizeof(Intensity)) == 0);
+            });
+        }
+    }
+}
+
+TEST_CASE("every position within a texel and its neighbours, to 1/512, gives the oracle's blend, at the border too") {
+    dice roll(432);
+    const image<rg8> map = test::noise<rg8>(roll, {3, 2}, 2);
+    points p;
+    for (int y = -1024; y <= 4 * 512; y += 37)
+        for (int x = -1024; x <= 5 * 512; ++x) {
+            p.x.push_back(static_cast<float>(x) / 512.0f);
+            p.y.push_back(static_cast<float>(y) / 512.0f);
+            p.z.push_back(1.0f);
+        }
+    std::vector<float> expected(p.x.size()), made(p.x.size());
+    gnomon::receive(map.view(), p.x, p.y, p.z, expected, {.caster = gnomon::unbiased});
+    for_each_isa([&]<typename Isa>() {
+        gnomon::receive(simd<Isa>{}, map.view(), p.x, p.y, p.z, made, {.caster = gnomon::unbiased});
+        CHECK(expected == made);
+    });
+}
+
+TEST_CASE("receivers anywhere: every width to 67, any stride, in place, and on a map whose rows go upwards") {
+    dice roll(433);
+    const image<rg8> map = test::noise<rg8>(roll, {40, 30}, 2);
+    const image_view<const rg8> upwards(map.view().row(29), {40, 30}, -map.view().stride());
+    const points p = some_points(roll, map, 300);
+    const auto spread_over = [](auto* memory, int count, int spread) {
+        using T = std::remove_pointer_t<decltype(memory)>;
+        return strided_span<T>(memory, count, static_cast<std::ptrdiff_t>(sizeof(T)) * spread);
+    };
+    for_each_isa([&]<typename Isa>() {
+        int wrong = 0;
+        for (int count = 0; count <= 67; ++count)
+            for (const auto& [of_x, of_y, of_z, of_intensity] :
+                 {std::array{1, 1, 1, 1}, {2, 1, 1, 1}, {1, 3, 1, 1}, {1, 1, 2, 1}, {1, 1, 1, 2}, {3, 3, 3, 3}}) {
+                const auto x = spread_over(p.x.data() + 1, count, of_x), y = spread_over(p.y.data(), count, of_y),
+                           z = spread_over(p.z.data(), count, of_z);
+                std::vector<float> expected(220, -7.0f), made = expected;
+                gnomon::receive(upwards, x, y, z, spread_over(expected.data(), count, of_intensity));
+                gnomon::receive(simd<Isa>{}, upwards, x, y, z, spread_over(made.data(), count, of_intensity));
+                wrong += expected != made;
+                if (of_intensity > 1 || of_y > 1) continue;
+                std::vector<float> in_place = p.y;
+                gnomon::receive(simd<Isa>{}, upwards, x, spread_over(std::as_const(in_place).data(), count, 1), z,
+                                spread_over(in_place.data(), count, 1));
+                wrong += count > 0 &&
+                         std::memcmp(in_place.data(), expected.data(), static_cast<std::size_t>(count) * sizeof(float)) != 0;
+            }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("lanes read nothing beside the map: its memory ends where its last texel does") {
+    dice roll(434);
+    for (const extent size : {extent{2, 2}, {5, 3}, {64, 2}}) { // the address sanitizer watches; so do the bits, without it
+        const auto memory = std::make_unique<rg8[]>(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+        const image_view<rg8> map(memory.get(), size);
+        test::for_each_texel(whole(size), [&](int x, int y) { map(x, y) = test::any_caster<rg8>(roll); });
+        const image<rg8> none;
+        points p;
+        for (int i = 0; i < 2000; ++i) {
+            p.x.push_back(static_cast<float>(size.width + 4) * roll.unit() - 2.0f);
+            p.y.push_back(static_cast<float>(size.height + 4) * roll.unit() - 2.0f);
+            p.z.push_back(roll.unit());
+        }
+        std::vector<float> expected(p.x.size()), made(p.x.size());
+        gnomon::receive(map, p.x, p.y, p.z, expected);
+        for_each_isa([&]<typename Isa>() {
+            gnomon::receive(simd<Isa>{}, map, p.x, p.y, p.z, made);
+            CHECK(expected == made);
+        });
+    }
+}

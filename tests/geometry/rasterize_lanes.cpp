@@ -1,0 +1,290 @@
+// The rasteriser in lanes against the scalar one, bit for bit: texels, depths, their order, and what is said to be touched. What the
+// scalar one owes is asked in rasterize.cpp and scan.cpp; that a sheet has no gap is asked here again, of the lanes alone.
+#include <gnomon/geometry/rasterize_lanes.hpp>
+
+#include <gnomon/geometry/directional_light.hpp>
+#include <gnomon/geometry/spot_light.hpp>
+#include <gnomon/grid/depth_range.hpp>
+
+#include "../support/formats.hpp"
+#include "../support/images.hpp"
+#include "../support/lanes.hpp"
+#include "../support/world_dice.hpp"
+
+#include <doctest/doctest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+using namespace gnomon;
+
+namespace {
+constexpr extent map_size{96, 80};
+using test::for_each_isa;
+using dice = test::world_dice;
+
+struct mesh_data {
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices;
+
+    void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        for (const glm::dvec3& p : {a, b, c}) {
+            indices.push_back(static_cast<std::uint32_t>(positions.size()));
+            positions.emplace_back(p);
+        }
+    }
+    [[nodiscard]] triangle_mesh mesh(const glm::dmat4& model = glm::dmat4(1.0)) const {
+        return {.positions = positions, .indices = indices, .model = model};
+    }
+};
+
+/// What a sink was told: place and bits of the depth, in order.
+struct drawn_texel {
+    int x, y;
+    std::uint32_t depth;
+    friend bool operator==(const drawn_texel&, const drawn_texel&) = default;
+};
+struct record {
+    std::vector<drawn_texel> texels;
+    light_footprint touched;
+    friend bool operator==(const record& a, const record& b) {
+        return a.texels == b.texels && a.touched.texels == b.touched.texels && a.touched.depth == b.touched.depth;
+    }
+};
+template <typename... Where>
+record draw(auto run, const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side, const Where&... where) {
+    record r;
+    const auto sink = [&r](int x, int y, float z) { r.texels.push_back({x, y, std::bit_cast<std::uint32_t>(z)}); };
+    r.touched = rasterize(run, mesh, light, target, side, sink, where...);
+    return r;
+}
+
+light_frame any_light(dice& roll, int i) {
+    if (i % 2 == 0) {
+        directional_light sun(roll.vector(1.0));
+        sun.add_caster(bounding_sphere{glm::dvec3(0), 6.0});
+        return sun.frame(map_size, 2);
+    }
+    return spot_light{.position = roll.vector(4.0),
+                      .direction = roll.vector(1.0),
+                      .outer_angle = roll(0.3, 1.2),
+                      .near_plane = roll(0.2, 2.0),
+                      .far_plane = roll(6.0, 20.0)}
+        .frame(map_size);
+}
+
+/// Up to 40 triangles of one size, from a hundredth of a texel to the horizon; some cannot be drawn.
+mesh_data any_mesh(dice& roll, int i) {
+    mesh_data m;
+    const double size = i % 7 == 0 ? std::exp(roll(0.0, 60.0)) : std::exp(roll(-6.0, 3.0));
+    const int count = static_cast<int>(roll(0.0, 40.0));
+    for (int k = 0; k < count; ++k) {
+        const glm::dvec3 at = roll.vector(5.0);
+        m.add(at + roll.vector(size), at + roll.vector(size), at + roll.vector(size));
+    }
+    constexpr float odd[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                             -std::numeric_limits<float>::infinity(), 3e38f, -0.0f};
+    if (i % 5 == 0 && count > 0)
+        for (int k = 0; k < 3; ++k) {
+            const auto which = static_cast<std::size_t>(roll(0.0, 3.0 * count));
+            m.positions[which][static_cast<int>(roll(0.0, 3.0))] = odd[static_cast<std::size_t>(roll(0.0, 5.0))];
+            m.indices[static_cast<std::size_t>(roll(0.0, 3.0 * count))] = static_cast<std::uint32_t>(roll(0.0, 3.2 * count));
+        }
+    if (i % 3 == 0) m.indices.resize(m.indices.size() - static_cast<std::size_t>(roll(0.0, 3.0)) % (m.indices.size() + 1));
+    return m;
+}
+
+glm::dmat4 any_model(dice& roll, int i) {
+    const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), roll(-3.0, 3.0), glm::dvec3(0.6, 0.0, 0.8));
+    if (i % 6 == 0) return glm::scale(turned, glm::dvec3(1.0, -1.0, 0.5));       // mirrors
+    if (i % 6 == 1) return glm::scale(turned, glm::dvec3(1.0, i % 4 == 0, 1.0)); // flattens, now and then
+    if (i % 6 == 2) return glm::perspective(1.0, 1.0, 0.5, 20.0) * turned;       // W is not 1 even under a sun
+    return turned;
+}
+
+/// A light whose map is the x and the y of the world in 1/256 texel, exactly, and whose depth is z.
+light_frame plain_frame(extent size) {
+    return {glm::dmat4(glm::dvec4(1.0 / 256.0, 0.0, 0.0, 0.0), glm::dvec4(0.0, 1.0 / 256.0, 0.0, 0.0),
+                       glm::dvec4(0.0, 0.0, 1.0, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0)),
+            size, 1.0, 1.0};
+}
+
+/// n times it is 1 modulo `modulus`; 0 if there is none. (Euclid.)
+std::int64_t inverse_of(std::int64_t n, std::int64_t modulus) {
+    std::int64_t a = modulus, b = n % modulus, of_a = 0, of_b = 1;
+    while (b > 1) {
+        const std::int64_t q = a / b, rest = a - q * b, of_rest = of_a - q * of_b;
+        a = b;
+        b = rest;
+        of_a = of_b;
+        of_b = of_rest;
+    }
+    return b == 1 ? (of_b % modulus + modulus) % modulus : 0;
+}
+} // namespace
+
+TEST_CASE("lanes draw what the scalar rasteriser draws, in its order and to the bit: any size, any light, any model, and garbage") {
+    dice roll{std::mt19937_64(31)};
+    std::size_t texels = 0, spot = 0, partly = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const light_frame light = any_light(roll, i);
+        const mesh_data m = any_mesh(roll, i);
+        const triangle_mesh mesh = m.mesh(any_model(roll, i));
+        const faces side = i % 3 == 0 ? faces::both : i % 3 == 1 ? faces::lit_side : faces::dark_side;
+        texel_rect target = everywhere;
+        if (i % 4 == 3)
+            target = {static_cast<int>(roll(-20.0, 90.0)), static_cast<int>(roll(-20.0, 70.0)), static_cast<int>(roll(0.0, 120.0)),
+                      static_cast<int>(roll(0.0, 100.0))};
+        const record expected = draw(scalar{}, mesh, light, target, side);
+        texels += expected.texels.size();
+        spot += light.perspective() ? expected.texels.size() : 0;
+        partly += i % 4 == 3 && !expected.texels.empty();
+        CAPTURE(i);
+        for_each_isa([&]<typename Isa>() { CHECK(draw(simd<Isa>{}, mesh, light, target, side) == expected); });
+    }
+    CHECK(texels > 2000000);
+    CHECK(spot > 500000);
+    CHECK(partly > 80);
+}
+
+TEST_CASE("lanes skip the triangles that a place for them does not touch, as the scalar rasteriser does") {
+    dice roll{std::mt19937_64(32)};
+    std::size_t skipped = 0;
+    for (int i = 0; i < 200; ++i) {
+        const light_frame light = any_light(roll, i);
+        const mesh_data m = any_mesh(roll, i);
+        depth_tiles tiles(map_size, 8);
+        tiles.mark({10, 20, 40, 50}, {0.0f, 1.0f});
+        const auto upper_half = [](texel_rect r) { return r.y0 < 40; };
+        const record expected = draw(scalar{}, m.mesh(), light, everywhere, faces::both, tiles),
+                     upper = draw(scalar{}, m.mesh(), light, everywhere, faces::both, upper_half);
+        skipped += draw(scalar{}, m.mesh(), light, everywhere, faces::both).texels.size() - expected.texels.size();
+        for_each_isa([&]<typename Isa>() {
+            CHECK(draw(simd<Isa>{}, m.mesh(), light, everywhere, faces::both, tiles) == expected);
+            CHECK(draw(simd<Isa>{}, m.mesh(), light, everywhere, faces::both, upper_half) == upper);
+        });
+    }
+    CHECK(skipped > 5000);
+}
+
+TEST_CASE_TEMPLATE("lanes cast and bound as the scalar rasteriser does, whatever is in the map, and write nothing beside it", Texel,
+                   rg8, rg16, rg16f, rg32f, tm8, test::paper8, rga8, rgb16, rgba8, rgba32f, test::ratio_rgba16) {
+    dice roll{std::mt19937_64(33)};
+    test::dice bits(33);
+    constexpr extent around{map_size.width + 9, map_size.height + 2};
+    constexpr texel_rect inner{3, 1, 3 + map_size.width, 1 + map_size.height};
+    int changed = 0;
+    for (int i = 0; i < 60; ++i) {
+        const light_frame light = any_light(roll, i);
+        const mesh_data m = any_mesh(roll, i), ground = any_mesh(roll, i + 1);
+        image<Texel> from(around, Texel::clear());
+        if (i % 3 == 0) test::fill_with_bits(bits, from.view());
+        if (i % 3 == 1) from = test::noise<Texel>(bits, around, 2);
+        const faces side = i % 2 == 0 ? faces::both : faces::lit_side;
+        const auto cast = [&](auto run, image<Texel>& map) {
+            const image_view<Texel> view = map.view().part(inner);
+            light_footprint touched = cast_triangles(run, view, m.mesh(), light, side);
+            if constexpr (Texel::effects.translucency) cast_triangles(run, view, ground.mesh(), light, 0.25f, side);
+            if constexpr (Texel::effects.far_bound) {
+                touched = bound_triangles(run, view, ground.mesh(), light, side);
+                bound_triangles(run, view, m.mesh(), light, faces::both, touches_everything{}, texel_rect{20, 10, 60, 50});
+            }
+            return touched;
+        };
+        image<Texel> expected = from;
+        const light_footprint touched = cast(scalar{}, expected);
+        changed += test::differences(expected, from);
+        CAPTURE(i);
+        for_each_isa([&]<typename Isa>() {
+            image<Texel> made = from;
+            CHECK(cast(simd<Isa>{}, made) == touched);
+            CHECK(test::differences(made, expected) == 0);
+        });
+    }
+    CHECK(changed > 10000);
+}
+
+TEST_CASE(
+    "in lanes too a tessellated sheet is drawn exactly once in every texel, of slivers and of triangles smaller than texels") {
+    dice roll{std::mt19937_64(34)};
+    for (int i = 0; i < 24; ++i) {
+        const int columns = 1 + (i * i * 5) % 150, rows = 1 + (i * 29) % 100; // the more unequal, the thinner
+        const auto corner_at = [columns](int u, int v) { return static_cast<std::uint32_t>(v * (columns + 1) + u); };
+        mesh_data sheet;
+        for (int v = 0; v <= rows; ++v)
+            for (int u = 0; u <= columns; ++u) {
+                const double du = u % columns == 0 ? 0.0 : roll(-0.24, 0.24), dv = v % rows == 0 ? 0.0 : roll(-0.24, 0.24);
+                sheet.positions.emplace_back(40.0 * (u + du) / columns - 20.0, 0.001 * roll(-1.0, 1.0),
+                                             40.0 * (v + dv) / rows - 20.0);
+            }
+        for (int v = 0; v < rows; ++v)
+            for (int u = 0; u < columns; ++u)
+                for (const std::uint32_t index : {corner_at(u, v), corner_at(u + 1, v), corner_at(u + 1, v + 1), corner_at(u, v),
+                                                  corner_at(u + 1, v + 1), corner_at(u, v + 1)})
+                    sheet.indices.push_back(index);
+        directional_light sun({0.01, -1, 0.02});
+        sun.add_caster(bounding_sphere{glm::dvec3(0), 9.0});
+        const spot_light lamp{
+            .position = {0.3, 9, 0.2}, .direction = {0.01, -1, 0.02}, .outer_angle = 0.8, .near_plane = 1.0, .far_plane = 12.0};
+        for (const light_frame& light : {sun.frame(map_size), lamp.frame(map_size)})
+            for_each_isa([&]<typename Isa>() {
+                image<std::uint8_t> count(map_size);
+                rasterize(simd<Isa>{}, sheet.mesh(), light, everywhere, faces::both, [&](int x, int y, float) { ++count(x, y); });
+                int not_once = 0;
+                test::for_each_texel(whole(map_size), [&](int x, int y) { not_once += count(x, y) != 1; });
+                CAPTURE(i);
+                CHECK(not_once == 0);
+            });
+    }
+}
+
+TEST_CASE("lanes cover the centres that edges run through as the scalar rasteriser does") {
+    dice roll{std::mt19937_64(35)};
+    const auto number = [&roll](int low, int high) { return static_cast<double>(static_cast<int>(roll(low, high + 0.999))); };
+    mesh_data on_centres;
+    for (int i = 0; i < 3000; ++i) { // every other corner is a centre or the corner of a texel
+        const auto corner = [&] { return glm::dvec3(number(-10, 90) * 128.0, number(-10, 90) * 128.0, roll(0.0, 1.0)); };
+        on_centres.add(corner(), corner(), corner());
+    }
+    const record through = draw(scalar{}, on_centres.mesh(), plain_frame({64, 64}), everywhere, faces::both);
+    CHECK(through.texels.size() > 100000);
+    for_each_isa([&]<typename Isa>() {
+        CHECK(draw(simd<Isa>{}, on_centres.mesh(), plain_frame({64, 64}), everywhere, faces::both) == through);
+    });
+}
+
+TEST_CASE(
+    "an edge that passes a centre by as closely as can be, over 4000 rows and columns, is on the side where it is, in lanes too") {
+    dice roll{std::mt19937_64(36)};
+    int tried = 0, differ = 0;
+    for (int i = 0; i < 400; ++i) {
+        // From (x, 0) to (x + dx, dy). On the row with centre y it is 1/dy of 1/256 texel beside a centre if dx y = +-1 modulo dy.
+        const std::int64_t dy = (1 << 20) - 1 - 2 * static_cast<std::int64_t>(roll(0.0, 1000.0));
+        const int row = static_cast<int>(roll(1.0, 4000.0)), column = 4100;
+        const std::int64_t y = 256 * row + 128, inverse = inverse_of(y, dy);
+        if (inverse == 0) continue;
+        ++tried;
+        std::size_t covered[3] = {};
+        for (const int beside : {-1, 0, 1}) {
+            const std::int64_t dx = beside < 0 ? dy - inverse : inverse, met = dx * y / dy + (beside < 0 ? 1 : 0);
+            const auto x = static_cast<double>(256 * column + 128 - met), width = static_cast<double>(dx),
+                       height = static_cast<double>(dy);
+            mesh_data m;
+            m.add(glm::dvec3(x, beside == 0 ? -1.0 : 0.0, 0.0), glm::dvec3(x + width, height, 1.0),
+                  i % 2 == 0 ? glm::dvec3(x + width, 0.0, 0.5) : glm::dvec3(x, height, 0.5));
+            const light_frame light = plain_frame({8300, 4100});
+            const texel_rect target{column - 9, row - 1, column + 8, row + 3};
+            const record expected = draw(scalar{}, m.mesh(), light, target, faces::both);
+            covered[beside + 1] = expected.texels.size();
+            for_each_isa([&]<typename Isa>() { CHECK(draw(simd<Isa>{}, m.mesh(), light, target, faces::both) == expected); });
+        }
+        differ += covered[0] != covered[2];
+    }
+    CHECK(tried > 200);
+    CHECK(differ > 100);
+}
