@@ -144,7 +144,7 @@ def main():
         if (path := given.folder / f"{name}.json").exists():
             ratios |= ratios_of(path)
     for name, ratio in sorted(ratios.items()):
-        print(f"{name:44}{ratio:8.2f}")
+        print(f"{name:52}{ratio:8.3g}")
     if not any("opencv" in name for name in ratios):
         print("no peers: OpenCV was not there when the benches were built")
     if given.summary:
