@@ -13,6 +13,7 @@
 #include <concepts>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -98,6 +99,17 @@ TEST_CASE_TEMPLATE("lanes filter as the oracle does, for every shape of kernel a
     });
 }
 
+TEST_CASE("what is too large for the caches goes past them, whole registers where they are aligned, and is the same") {
+    dice roll(405);
+    image<gnomon::rg32f> map({2070, 1030}, gnomon::rg32f::clear());
+    for_each_texel(whole(map.size()), [&](int x, int y) { map(x, y) = gnomon::rg32f::caster(roll.unit()); });
+    const texel_rect region{3, 1, 2068, 1029}; // begins within a register
+    static_assert((2068LL - 3) * 1028 * 8 >= gnomon::on_any::streamed_bytes);
+    for_each_isa([&]<typename Isa>() {
+        CHECK(differing<Isa, gnomon::fast<binomial<1>>>(image_view(std::as_const(map).view()), region) == 0);
+    });
+}
+
 TEST_CASE("a region partly or wholly off the map is to lanes what it is to the oracle") {
     const image<rg8> map({40, 5}, rg8::caster(0.5f));
     CHECK(differing<gnomon::best_isa, binomial<2>>(map.view(), {-9, -9, 90, 90}) == 0);
@@ -116,6 +128,22 @@ TEST_CASE_TEMPLATE("what lanes do not know is left to the oracle: a ratio of two
     gnomon::receive(simd<>{}, map.view().row_span(4), z, made);
     CHECK(expected == made);
 }
+
+#if defined(NDEBUG) && GNOMON_X86
+TEST_CASE_TEMPLATE("without asserts, lanes that the processor has not are left to the oracle", Isa, gnomon::avx2, gnomon::avx512) {
+    dice roll(404);
+    const image<rg8> map = test::noise<rg8>(roll, {70, 9}, 2);
+    CHECK(differing<Isa, binomial<2>>(map.view(), whole(map.size())) == 0);
+    const std::vector<float> z(70, 0.75f), x(70, 33.5f);
+    std::vector<float> expected(70), made(70);
+    gnomon::receive(map.view().row_span(4), z, expected);
+    gnomon::receive(simd<Isa>{}, map.view().row_span(4), z, made);
+    CHECK(expected == made);
+    gnomon::receive(map.view(), x, x, z, expected);
+    gnomon::receive(simd<Isa>{}, map.view(), x, x, z, made);
+    CHECK(expected == made);
+}
+#endif
 
 TEST_CASE("lanes count in what is quickest and still exact: words, or doubles; and in floats where a kernel says fast") {
     using gnomon::fast;

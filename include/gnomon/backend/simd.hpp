@@ -44,7 +44,12 @@ concept channel_of_lanes = std::same_as<Channel, unorm8> || std::same_as<Channel
 template <typename Isa>
 inline constexpr bool has_lanes = GNOMON_X86 + GNOMON_NEON + GNOMON_WASM > 0 || !std::same_as<Isa, best_isa>;
 
+/// What a processor must have to run them.
+template <typename Isa> inline constexpr cpu_level level_needed = cpu_level::portable;
 #if GNOMON_X86
+template <> inline constexpr cpu_level level_needed<avx2> = cpu_level::avx2;
+template <> inline constexpr cpu_level level_needed<avx512> = cpu_level::avx512;
+
 /// Each target's code goes by its own name.
 template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
@@ -115,7 +120,8 @@ template <typename F> auto with_lanes(cpu_level, F&& f) noexcept { return f.temp
 ///
 /// What lanes do not know is left to `scalar`: depth_ratio, channels of a user's, radii beyond 256, maps narrower than a register;
 /// and in `receive` half and float texels, the paper's pair, far bounds, and positions. Needs no scratch for what it does itself.
-/// \pre the processor has the lanes that are named: ask best_lanes(). simd<> has no such condition.
+/// \pre the processor has the lanes that are named: ask best_lanes(). Without asserts all is left to `scalar` if it has not. simd<>
+/// has no such condition.
 template <typename Isa = best_isa> struct simd {
     static_assert(std::same_as<Isa, best_isa> || simd_isa<Isa>,
                   "gnomon: simd<Isa> takes sse2, avx2, avx512, neon, wasm128, emulated<Bytes> or lanes of your own that model "
@@ -138,9 +144,8 @@ template <typename Isa = best_isa> struct simd {
                  const rule& r) const noexcept {
         if constexpr (detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
                       on_any::decided_in_lanes<Texel, Depth, Intensity>)
-            call([&]<typename Lanes>() { detail::receive_on<Lanes>(texels, z, intensity, r); });
-        else
-            gnomon::receive(texels, z, intensity, r);
+            if (call([&]<typename Lanes>() { return detail::receive_on<Lanes>(texels, z, intensity, r), true; })) return;
+        gnomon::receive(texels, z, intensity, r);
     }
     template <texel_format Texel, depth_number Depth, intensity_number Intensity>
     void receive(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y, strided_span<const Depth> z,
@@ -152,11 +157,15 @@ template <typename Isa = best_isa> struct simd {
     }
 
   private:
-    template <typename F> static auto call(F&& f) noexcept {
-        if constexpr (std::same_as<Isa, best_isa>)
+    /// False, and nothing done, if f says so or the processor has no such lanes.
+    template <typename F> static bool call(F&& f) noexcept {
+        if constexpr (std::same_as<Isa, best_isa>) {
             return detail::with_lanes(best_lanes(), f);
-        else
-            return f.template operator()<Isa>();
+        } else {
+            const bool there = best_lanes() >= detail::level_needed<Isa>;
+            GNOMON_ASSERT(there, "gnomon: this processor has no such lanes as simd<Isa> names; ask best_lanes(), or take simd<>");
+            return there && f.template operator()<Isa>();
+        }
     }
 };
 

@@ -440,20 +440,35 @@ template <typename Isa> void stream(void* to, const void* from, std::size_t byte
     std::memcpy(out + i, in + i, bytes - i);
 }
 
+/// So many channels of a row out of a line: straight to where they go, or by way of `made`, past the caches or because a register
+/// would reach beyond the row.
+template <typename Isa, typename Pass, typename Storage>
+void make_row(const typename Pass::element* line, Storage* to, int count, bool past_caches, Storage* made) noexcept {
+    Storage* const out = past_caches || count < Pass::step ? made : to;
+    for (int at = 0; at < count; at += Pass::step) {
+        const int i = greater(lesser(at, count - Pass::step), 0);
+        Pass::row(line + Pass::place(i), out + i);
+    }
+    const auto bytes = static_cast<std::size_t>(count) * sizeof(Storage);
+    if (past_caches)
+        stream<Isa>(to, made, bytes);
+    else if (out == made)
+        std::memcpy(to, made, bytes);
+}
+
 /// filter_region in lanes, for a region within both images. False, and nothing done, where rows are shorter than a register.
 template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter_rows(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
     using pass = filter_of<Isa, Kernel, Texel>;
     using storage = typename Texel::storage;
-    constexpr int channels = Texel::channels, margin = pass::margin, taps = 2 * Kernel::radius + 1;
-    constexpr int rows_summed = taps + rows_at_once - 1; // and a few more are told, for those that take them by twos and fours
+    constexpr int channels = Texel::channels, margin = pass::margin;
+    constexpr int rows_summed =
+        2 * Kernel::radius + rows_at_once; // and a few more are told, to those that take them by twos and fours
     const int row_size = from.width() * channels;
     if (row_size < pass::step) return false;
-    const bool prefetched =
-        std::int64_t{from.height()} * from.width() * static_cast<std::int64_t>(sizeof(Texel)) >= prefetched_bytes;
-    // What no cache keeps until it is read need not push out of it what will be read.
-    const bool past_caches =
-        static_cast<std::int64_t>(region.width()) * region.height() * static_cast<std::int64_t>(sizeof(Texel)) >= streamed_bytes;
+    const auto bytes_of = [](int width, int height) { return std::int64_t{width} * height * std::int64_t{sizeof(Texel)}; };
+    const bool prefetched = bytes_of(from.width(), from.height()) >= prefetched_bytes;
+    const bool past_caches = bytes_of(region.width(), region.height()) >= streamed_bytes;
 
     alignas(64) storage made[static_cast<std::size_t>(pass::strip + pass::step)];
     alignas(64) typename pass::element line[static_cast<std::size_t>(rows_at_once * pass::line_size)];
@@ -463,35 +478,24 @@ bool filter_rows(image_view<const Texel> from, image_view<Texel> to, texel_rect 
         for (Texel& each : nothing) each = Texel::clear();
 
     for (int x0 = region.x0 * channels; x0 < region.x1 * channels; x0 += pass::strip) {
-        const int x1 = lesser(x0 + pass::strip, region.x1 * channels);
+        const int x1 = lesser(x0 + pass::strip, region.x1 * channels), left = x0 - margin, right = x1 + margin;
         // The columns that are there, and enough of them for one register.
-        const int last = greater(lesser(x1 + margin, row_size), pass::step);
-        const int first = greater(lesser(x0 - margin, last - pass::step), 0);
+        const int last = greater(lesser(right, row_size), pass::step);
+        const int first = greater(lesser(left, last - pass::step), 0);
         for (int y = region.y0; y < region.y1; y += rows_at_once) {
             const storage* rows[static_cast<std::size_t>(rows_summed + rows_at_once)];
             for (int t = 0; t < rows_summed + rows_at_once; ++t) {
                 const int row = y + t - Kernel::radius;
-                rows[t] =
-                    row >= 0 && row < from.height() ? channels_of(from.row(row)) + first : channels_of(nothing) + first % channels;
+                const bool there = row >= 0 && row < from.height();
+                rows[t] = there ? channels_of(from.row(row)) + first : channels_of(nothing) + first % channels;
             }
-            typename pass::element* const sums = line + pass::place(pass::step); // of the column x0 - margin
-            pass::columns(rows, prefetched ? rows + rows_summed : nullptr, sums + pass::place(first - (x0 - margin)), last - first);
+            typename pass::element* const sums = line + pass::place(pass::step); // of the column `left`
+            pass::columns(rows, prefetched ? rows + rows_summed : nullptr, sums + pass::place(first - left), last - first);
             for (int j = 0; j < lesser(rows_at_once, region.y1 - y); ++j) {
                 typename pass::element* const here = sums + j * pass::line_size;
-                pass::clear(here, 0, -(x0 - margin));
-                const int end = x1 - x0 + 2 * margin; // and one texel more, which a pair of taps may read without a weight
-                pass::clear(here, lesser(row_size - (x0 - margin), end), end + channels);
-                storage* const there = channels_of(to.row(y + j)) + x0;
-                storage* const out = past_caches || x1 - x0 < pass::step ? made : there;
-                for (int at = 0; at < x1 - x0; at += pass::step) {
-                    const int i = greater(lesser(at, x1 - x0 - pass::step), 0);
-                    pass::row(here + pass::place(i), out + i);
-                }
-                const auto bytes = static_cast<std::size_t>(x1 - x0) * sizeof(storage);
-                if (past_caches)
-                    stream<Isa>(there, made, bytes);
-                else if (out == made)
-                    std::memcpy(there, made, bytes);
+                pass::clear(here, 0, -left); // and one texel more at the end, which a pair of taps may read without a weight
+                pass::clear(here, lesser(row_size, right) - left, right - left + channels);
+                make_row<Isa, pass>(here, channels_of(to.row(y + j)) + x0, x1 - x0, past_caches, made);
             }
         }
     }
