@@ -1,7 +1,7 @@
 // What a frame costs from casters to light: the whole map filtered, and a receiver on each texel decided, against moving the bytes.
 //
 // Names are WHAT/u8x2/k9/1024, and all run in one process:
-//     both             filter, then receive; with .avx2 behind it by simd<avx2>
+//     both             filter, then receive depths of 16 bits into bytes; with .avx2 behind it by simd<avx2>
 //     copy, stream     the filter's floor: memcpy of the map, and reading it with stores that pass the caches by
 //     receive.copy     the receivers' floor: a memcpy that moves as many bytes
 #include <gnomon/backend/simd.hpp>
@@ -9,6 +9,7 @@
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -21,8 +22,8 @@ using namespace gnomon;
 
 using texel = rg8;
 using kernel_9 = eight_bit<gaussian<4>>;
-using depth_of_receiver = float;
-using light = float;
+using depth_code = std::uint16_t;
+using intensity_code = std::uint8_t;
 constexpr int side = 1024;
 constexpr extent size{side, side};
 constexpr std::size_t texels = std::size_t{side} * side;
@@ -38,12 +39,12 @@ template <typename F> void add(const std::string& what, F&& work) {
 template <typename Isa> void add_pipeline(const char* what) {
     add(what, [](benchmark::State& state) {
         image<texel> casters(size, texel::clear()), soft(size, texel::clear());
-        image<depth_of_receiver> z(size);
-        image<light> intensity(size);
+        image<depth_code> z(size);
+        image<intensity_code> intensity(size);
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side; ++x) {
                 if ((x / 32 + y / 32) % 2 == 0) casters(x, y) = texel::caster(static_cast<float>(x) / side);
-                z(x, y) = static_cast<depth_of_receiver>(y) / side;
+                z(x, y) = unorm16::encode(static_cast<float>(y) / side);
             }
         filter_scratch<texel, kernel_9> scratch(side);
         for ([[maybe_unused]] auto _ : state) {
@@ -92,7 +93,7 @@ void add_all() {
     add_avx2();
     add_copy("copy", texels * sizeof(texel));
     add_stream();
-    add_copy("receive.copy", texels * (sizeof(texel) + sizeof(depth_of_receiver) + sizeof(light)) / 2);
+    add_copy("receive.copy", texels * (sizeof(texel) + sizeof(depth_code) + sizeof(intensity_code)) / 2);
 }
 } // namespace
 

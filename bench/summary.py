@@ -93,7 +93,7 @@ def rasters(path):
 
 
 def sparses(path):
-    """Time over what the same area costs in a map that is filtered whole; of frames, with all else that a frame does."""
+    """Time over what the same area costs in a map that is filtered whole."""
     time, ratios = medians(path), {}
     area = {run["run_name"]: run["area"] for run in json.loads(pathlib.Path(path).read_text())["benchmarks"]
             if "area" in run and run.get("aggregate_name") == "median"}
@@ -105,7 +105,6 @@ def sparses(path):
         for share in ("10pct", "50pct"):
             ideal = dense * area[f"{share}{suffix}{of}"]
             ratios[f"sparse.u8x2.{share}.over_ideal{suffix}"] = time[f"{share}{suffix}{of}"] / ideal
-            ratios[f"sparse.u8x2.{share}.frame_over_ideal{suffix}"] = time[f"frame.{share}{suffix}{of}"] / ideal
         ratios[f"sparse.empty.of_dense{suffix}"] = time[f"empty{suffix}{of}"] / dense
     return ratios
 
@@ -161,7 +160,7 @@ def main():
         if (path := given.folder / f"{name}.json").exists():
             ratios |= ratios_of(path)
     for name, ratio in sorted(ratios.items()):
-        print(f"{name:44}{ratio:8.2f}")
+        print(f"{name:52}{ratio:8.3g}")
     if not any("opencv" in name for name in ratios):
         print("no peers: OpenCV was not there when the benches were built")
     if given.summary:

@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -196,4 +197,16 @@ TEST_CASE("an image of receivers in bands is decided as row by row, where all th
     gnomon::receive(soft.view(), z.view(), expected.view(), distant);
     CHECK(test::differences(made, expected) == 0);
     CHECK(count == 64);
+}
+
+TEST_CASE("depths and intensities in codes go through an executor as they go row by row") {
+    dice roll(516);
+    const image<rg8> soft = test::noise<rg8>(roll, {70, 65}, 2);
+    image<std::uint16_t> z(soft.size());
+    test::for_each_texel(whole(z.size()), [&](int x, int y) { z(x, y) = static_cast<std::uint16_t>(roll(0, 65535)); });
+    image<std::uint8_t> made(soft.size()), expected(soft.size());
+    int count = 0;
+    gnomon::receive(gnomon::simd<>{}, soft.view(), z.view(), made.view(), {}, backwards{&count});
+    for (int y = 0; y < 65; ++y) gnomon::receive(soft.view().row_span(y), z.view().row_span(y), expected.view().row_span(y));
+    CHECK(test::differences(made, expected) == 0);
 }

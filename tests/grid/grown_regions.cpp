@@ -150,6 +150,9 @@ TEST_CASE("the largest map and the largest radius there can be are grown without
         const int first = (highest - 1) / tile * tile, grown = first > 3 ? first - 3 : 0;
         CHECK(regions(tiles, 3) == std::vector<texel_rect>{{grown, grown, highest, highest}});
     }
+    tile_grid texels({30, 20}, 1); // whose rows of tiles reach over as many others as there are
+    texels.mark({7, 9, 8, 10});
+    CHECK(regions(texels, highest) == std::vector<texel_rect>{{0, 0, 30, 20}});
 }
 
 TEST_CASE("no map, no marks and marks off the map have no regions") {

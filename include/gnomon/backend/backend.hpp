@@ -23,9 +23,10 @@ concept backend_for = texel_format<Texel> && kernel<Kernel> &&
 /// Filters what the grid marks: filter(scalar{}, casters, soft, tiles, scratch).
 /// The scratch says which kernel.
 ///
-/// Equal to filtering the whole map, bit for bit, if every texel of `from` that is not clear was marked, with the kernel's radius
-/// as guard band, and `to` is clear where nothing is marked. A narrower guard band makes it filter the whole map. Of images that
-/// differ in size, what all share is written.
+/// Equal to filtering the whole map, bit for bit, if every texel of `from` that is not clear lies in a rectangle that was marked,
+/// whatever its guard band, and `to` is clear, or was filtered before and rid of what is left of that: see filter/sparse.hpp. Of
+/// images that differ in size, what all share is written.
+/// Cost: what lies within the kernel's radius of the casters' tiles; never much more than the whole map.
 template <kernel Kernel, texel_format Texel, backend_for<Texel, Kernel> Backend>
 void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const tile_grid& tiles,
             filter_scratch<Texel, Kernel>& scratch) noexcept {

@@ -67,7 +67,7 @@ template <texel_format Texel> void clear_region(image_view<Texel> texels, texel_
         std::memcpy(&texels(r.x0, y), &texels(r.x0, r.y0), static_cast<std::size_t>(r.width()) * sizeof(Texel));
 }
 
-/// Clears every texel of the marked tiles. Cost: their area.
+/// Clears every texel of the marked tiles: all that a filter left there, if guard bands were as wide as its radius. Cost: their area.
 template <texel_format Texel> void clear_tiles(image_view<Texel> texels, const tile_grid& tiles) noexcept {
     for_each_region(tiles, [&](texel_rect r) { clear_region(texels, r); });
 }

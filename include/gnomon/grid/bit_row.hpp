@@ -56,7 +56,7 @@ template <typename Word> struct basic_bit_row {
 
     /// Is [first, last) exactly one maximal run?
     [[nodiscard]] constexpr bool is_run(int first, int last) const noexcept {
-        return all(first, last) && (first == 0 || !test(first - 1)) && (last == size || !test(last));
+        return next_clear(first) == last && (first == 0 || !test(first - 1));
     }
 
   private:

@@ -9,8 +9,9 @@ namespace gnomon::inline GNOMON_BUILD {
 
 namespace detail {
 
-/// Disjoint intervals of columns, in order and apart: what a row of texels needs of the 64 tiles of a word. That are at most 34, and
-/// the difference of two lists at most 68. The ends lie apart in memory: written one by one, they shall not be read as a pair.
+/// Disjoint intervals of columns, in order and apart: what a row of texels needs of the 64 tiles of a word. Those are at most 34, and
+/// the difference of two lists at most 68. First and last columns lie apart in memory: what is written one by one and read as a pair
+/// is slow to read.
 struct span_list {
     int first[68], last[68]; ///< what they hold beyond `count` is nobody's
     int count = 0;
@@ -33,8 +34,7 @@ inline void subtract(const span_list& a, const span_list& b, span_list& left) no
     left.count = 0;
     for (int i = 0, j = 0; i < a.count; ++i) {
         int from = a.first[i];
-        for (; j < b.count && b.last[j] <= from; ++j) {
-        }
+        while (j < b.count && b.last[j] <= from) ++j;
         for (int k = j; k < b.count && b.first[k] < a.last[i]; ++k) {
             left.add(from, b.first[k], from, a.last[i]);
             from = b.last[k];
@@ -184,7 +184,7 @@ template <typename F> class span_stack {
 };
 template <typename F> span_stack(F&) -> span_stack<F>;
 
-/// Visits the bands of a word, but for those that no row of `rows` grows into: at(row, y, band), and beyond(y) where these begin.
+/// Calls at(row, y, band) for the bands that rows with marks grow into, from row 0 upwards, and beyond(y) where others follow.
 template <typename At, typename Beyond> void for_each_band_of(const tile_grid& grid, int radius, At&& at, Beyond&& beyond) {
     const bands each(grid.tile(), radius);
     const int reach_up = -each.at[0].first, reach_down = each.at[each.count - 1].last;

@@ -13,14 +13,21 @@ namespace gnomon::inline GNOMON_BUILD {
 /// So no two rectangles could be joined into one. Keeps no state: the grid may be shared between readers. Cost: the occupied rows.
 template <typename F> void for_each_tile_rect(const tile_grid& grid, F&& f) {
     const auto holds = [&grid](int y, int first, int last) { return y >= 0 && y < grid.rows() && grid.row(y).is_run(first, last); };
+    const auto repeats_the_last = [&grid](int y) {
+        int w = 0;
+        while (w < words_for(grid.columns()) && grid.row(y).words[w] == grid.row(y - 1).words[w]) ++w;
+        return w == words_for(grid.columns());
+    };
     grid.occupied_rows().for_each_run([&](int first_row, int last_row) {
-        for (int y = first_row; y < last_row; ++y)
+        for (int y = first_row; y < last_row; ++y) {
+            if (y > first_row && repeats_the_last(y)) continue; // nothing begins
             grid.row(y).for_each_run([&](int first, int last) {
                 if (holds(y - 1, first, last)) return; // part of a rectangle that began below
                 int end = y + 1;
                 while (holds(end, first, last)) ++end;
                 f(tile_rect{first, y, last, end});
             });
+        }
     });
 }
 
