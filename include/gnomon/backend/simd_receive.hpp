@@ -192,11 +192,22 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         ints texel, here, next;
     };
 
+    /// A few registers of receivers on their way from place to texels to decision. They rest before either, for what is stored as a
+    /// whole and loaded piece by piece, or the other way round, takes its time, and so do texels that are not in the first cache.
+    static constexpr int rest = 3 * step, ring = 8 * step;
+    struct work {
+        int at[static_cast<std::size_t>(ring)]; ///< bytes from the map to the upper left texel
+        std::uint32_t across[static_cast<std::size_t>(ring)], above[static_cast<std::size_t>(ring)],
+            below[static_cast<std::size_t>(ring)];
+        float here[static_cast<std::size_t>(ring)], next[static_cast<std::size_t>(ring)];
+    };
+
     const void* map;
     ints last_column, last_row, stride; ///< the last texel that has a next one, and bytes from row to row
     std::ptrdiff_t next_row;            ///< in bytes
+    floats right, bottom;               ///< left of and above these lie texels that have a next one
     floats e, m, z;                     ///< the bias: what pair and receiver are moved by
-    floats farthest;                    ///< float depths beyond are lit, codes beyond are behind every caster
+    bool lit_beyond;
 
     /// Biases of one rounding keep the pair below 2^24. Offsets are of 32 bits, and a row has two texels for a gather.
     [[nodiscard]] static bool serves(image_view<const Texel> map, const rule& r) noexcept {
@@ -208,7 +219,6 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     [[nodiscard]] static blended_decision of(image_view<const Texel> map, const rule& r) noexcept {
         const biased moved = apply<Texel>(r.caster, 0.0, 0.0, 0.0f);
         const int codes = codes_towards_light<Texel>(r.caster);
-        constexpr float nowhere = std::numeric_limits<float>::infinity();
         constexpr bool whole_depth = std::same_as<Depth, std::uint16_t>;
         const auto word = [](int n) { return static_cast<std::uint32_t>(n); };
         return {map.data(),
@@ -216,19 +226,29 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                 Isa::repeat32(word(map.height() - 2)),
                 Isa::repeat32(word(static_cast<int>(map.stride()))),
                 map.stride(),
+                Isa::repeat(static_cast<float>(map.width() - 1)),
+                Isa::repeat(static_cast<float>(map.height() - 1)),
                 Isa::repeat(static_cast<float>(moved.e) * whole),
                 Isa::repeat(static_cast<float>(moved.m) * whole),
                 Isa::repeat(whole_depth ? static_cast<float>(-codes) : moved.z),
-                Isa::repeat(whole_depth ? static_cast<float>(depth16::last) : (r.lit_beyond ? 1.0f : nowhere))};
+                r.lit_beyond};
     }
 
-    /// A position in 1/256 texel, p = floor(256 x + 1/2) - 128 as `sample` has it, is p/256 texels right of the centre of texel 0. A
-    /// texel's weight is 256 less its distance, and nothing from 256 on: so weights fade out by themselves at the border, where the
-    /// two texels that are read are not those beside the position. (256 x is exact, and beyond 2^30 lies off every map.)
-    GNOMON_LANES taps place(const float* position, const ints& last) noexcept {
+    /// A position in 1/256 texel right of the centre of texel 0, floor(256 x + 1/2) - 128 as `sample` has it. 256 x is exact, and what
+    /// is beyond 2^30 lies off every map.
+    GNOMON_LANES ints fixed(const floats& x) noexcept {
+        const ints doubled = Isa::floor32(Isa::multiply(x, Isa::repeat(512.0f)));
+        return Isa::template shift_right32<1>(Isa::subtract32(doubled, Isa::repeat32(255)));
+    }
+    /// Between the centres of the first and the last texel.
+    GNOMON_LANES taps within(const ints& p) noexcept {
+        const ints next = Isa::both(p, Isa::repeat32(255));
+        return {Isa::template shift_right32<8>(p), Isa::subtract32(Isa::repeat32(256), next), next};
+    }
+    /// Anywhere. A texel's weight is 256 less its distance, and nothing from 256 on: so weights fade out by themselves where the two
+    /// texels that are read are not those beside the position, because one of these is not there.
+    GNOMON_LANES taps anywhere(const ints& p, const ints& last) noexcept {
         const ints none = Isa::repeat32(0), one = Isa::repeat32(256);
-        const ints doubled = Isa::floor32(Isa::multiply(Isa::load(position), Isa::repeat(512.0f)));
-        const ints p = Isa::subtract32(Isa::template shift_right32<1>(Isa::add32(doubled, Isa::repeat32(1))), Isa::repeat32(128));
         const ints texel = Isa::greater32(Isa::lesser32(Isa::template shift_right32<8>(p), last), none);
         const ints right = Isa::subtract32(p, Isa::template shift_left32<8>(texel)); // of the texel
         const ints here = Isa::lesser32(Isa::subtract32(one, right), Isa::add32(one, right));
@@ -236,26 +256,52 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         return {texel, Isa::greater32(here, none), Isa::greater32(next, none)};
     }
 
-    GNOMON_LANES pair blend(const blended_decision& by, const float* x, const float* y) noexcept {
-        const taps across = place(x, by.last_column), down = place(y, by.last_row);
-        const ints at = Isa::add32(Isa::multiply32(down.texel, by.stride), Isa::template shift_left32<1>(across.texel));
-        const ints weights = Isa::either(across.here, Isa::template shift_left32<16>(across.next)), low = Isa::repeat32(0x00FF00FF);
-        const ints above = Isa::gather32(by.map, at),
-                   below = Isa::gather32(static_cast<const std::byte*>(by.map) + by.next_row, at);
-        const auto row = [&](const ints& codes) { return Isa::numbers(Isa::add_dot16(Isa::repeat32(0), weights, codes)); };
-        const floats here = Isa::numbers(down.here), next = Isa::numbers(down.next);
-        return {Isa::add_product(Isa::multiply(row(Isa::both(above, low)), here), row(Isa::both(below, low)), next),
-                Isa::add_product(Isa::multiply(row(Isa::template shift_right16<8>(above)), here),
-                                 row(Isa::template shift_right16<8>(below)), next)};
+    GNOMON_LANES_VOID void note(const blended_decision& by, const taps& across, const taps& down, work& w, int i) noexcept {
+        Isa::store(w.at + i, Isa::add32(Isa::multiply32(down.texel, by.stride), Isa::template shift_left32<1>(across.texel)));
+        Isa::store(w.across + i, Isa::either(across.here, Isa::template shift_left32<16>(across.next)));
+        Isa::store(w.here + i, Isa::numbers(down.here));
+        Isa::store(w.next + i, Isa::numbers(down.next));
+    }
+    /// Offsets and weights of a register of receivers.
+    GNOMON_LANES_VOID void locate(const blended_decision& by, const float* xs, const float* ys, work& w, int i) noexcept {
+        const floats x = Isa::load(xs), y = Isa::load(ys), half = Isa::repeat(0.5f);
+        const masks inside = Isa::both(Isa::both(Isa::greater(x, half), Isa::greater(by.right, x)),
+                                       Isa::both(Isa::greater(y, half), Isa::greater(by.bottom, y)));
+        if (Isa::every(inside))
+            note(by, within(fixed(x)), within(fixed(y)), w, i);
+        else
+            note(by, anywhere(fixed(x), by.last_column), anywhere(fixed(y), by.last_row), w, i);
+    }
+    /// The texels there. Plain loads: as fast as gathers, or twice as fast, depending on the processor.
+    GNOMON_LANES_VOID void fetch(const blended_decision& by, work& w, int first) noexcept {
+        const auto* const above = static_cast<const std::byte*>(by.map);
+        const auto* const below = above + by.next_row;
+        GNOMON_UNROLL(4)
+        for (int i = first; i < first + step; ++i) {
+            std::ptrdiff_t at = w.at[i];
+            GNOMON_ALONE(at);
+            std::memcpy(w.above + i, above + at, sizeof w.above[i]);
+            std::memcpy(w.below + i, below + at, sizeof w.below[i]);
+        }
+    }
+    GNOMON_LANES pair blend(const work& w, int i) noexcept {
+        const ints across = Isa::load(w.across + i), above = Isa::load(w.above + i), below = Isa::load(w.below + i);
+        const floats here = Isa::load(w.here + i), next = Isa::load(w.next + i);
+        const ints low = Isa::repeat32(0x00FF00FF), none = Isa::repeat32(0);
+        const floats e = Isa::numbers(Isa::add_dot16(none, across, Isa::both(above, low)));
+        const floats m = Isa::numbers(Isa::add_dot16(none, across, Isa::template shift_right16<8>(above)));
+        const floats e_next = Isa::numbers(Isa::add_dot16(none, across, Isa::both(below, low)));
+        const floats m_next = Isa::numbers(Isa::add_dot16(none, across, Isa::template shift_right16<8>(below)));
+        return {Isa::add_product(Isa::multiply(e, here), e_next, next), Isa::add_product(Isa::multiply(m, here), m_next, next)};
     }
 
-    /// m z + (e-m) > 0, as above.
-    GNOMON_LANES bool decided(const blended_decision& by, const pair& moved, const floats& mask, const float* depths,
+    /// m z + (e-m) > 0, as above; where there is no mask there is no intensity either.
+    GNOMON_LANES bool decided(const blended_decision& by, const pair& moved, const floats&, const float* depths,
                               masks& shadowed) noexcept {
         const floats zero = Isa::repeat(0.0f), depth = Isa::load(depths);
         shadowed = Isa::positive(moved.m, Isa::add(depth, by.z), Isa::subtract(moved.e, moved.m));
-        shadowed = Isa::both(Isa::both(shadowed, Isa::greater(depth, zero)),
-                             Isa::both(Isa::greater(mask, zero), Isa::not_greater(depth, by.farthest)));
+        shadowed = Isa::both(shadowed, Isa::greater(depth, zero));
+        if (by.lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
         return true;
     }
     /// The same times 65535, where sums of 2^40 are rounded three times, each time by 2^16 at most: within 2^18 of nothing they say
@@ -268,7 +314,8 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         const masks there = Isa::both(Isa::greater(mask, zero), Isa::both(Isa::greater(code, zero), Isa::greater(depth, zero)));
         shadowed = Isa::both(there, Isa::greater(sum, doubt));
         const masks near_nothing = Isa::both(Isa::not_greater(sum, doubt), Isa::not_greater(Isa::repeat(-0x1p18f), sum));
-        return !Isa::any(Isa::both(there, near_nothing)) && !Isa::any(Isa::both(there, Isa::greater(depth, by.farthest)));
+        return !Isa::any(Isa::both(there, near_nothing)) &&
+               !Isa::any(Isa::both(there, Isa::greater(depth, Isa::repeat(static_cast<float>(depth16::last)))));
     }
 
     GNOMON_LANES_VOID void store(float* to, const masks& shadowed, const floats& mask) noexcept {
@@ -279,13 +326,22 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         Isa::template store_codes<unorm8>(to, Isa::keep(shadowed, code));
     }
 
-    /// False, and nothing stored, if float does not tell.
-    GNOMON_LANES bool one(const blended_decision& by, const float* x, const float* y, const Depth* z, Intensity* to) noexcept {
-        const pair blended = blend(by, x, y);
-        masks shadowed;
-        if (!decided(by, {Isa::add(blended.e, by.e), Isa::add(blended.m, by.m)}, blended.m, z, shadowed)) return false;
-        store(to, shadowed, blended.m);
-        return true;
+    /// \pre count is a multiple of `step`
+    static void some(const blended_decision& by, image_view<const Texel> map, const float* x, const float* y, const Depth* z,
+                     Intensity* to, int count, const rule& r) noexcept {
+        alignas(64) work w;
+        for (int first = 0; first < count + 2 * rest; first += step) {
+            if (first < count) locate(by, x + first, y + first, w, first % ring);
+            if (first >= rest && first < count + rest) fetch(by, w, (first - rest) % ring);
+            const int i = first - 2 * rest;
+            if (i < 0) continue;
+            const pair blended = blend(w, i % ring);
+            masks shadowed;
+            if (decided(by, {Isa::add(blended.e, by.e), Isa::add(blended.m, by.m)}, blended.m, z + i, shadowed))
+                store(to + i, shadowed, blended.m);
+            else // float does not tell
+                for (int k = i; k < i + step; ++k) to[k] = shadow_as<Intensity>(sample(map, x[k], y[k]), detail::as_depth(z[k]), r);
+        }
     }
 };
 
@@ -306,21 +362,15 @@ bool receive_points(image_view<const Texel> map, strided_span<const float> x, st
     const int count = lesser(lesser(x.size(), y.size()), lesser(z.size(), intensity.size()));
     const bool side_by_side = x.contiguous() && y.contiguous() && z.contiguous() && intensity.contiguous();
     const int together = side_by_side ? count - count % step : 0;
-    const auto exactly = [&](int i, int some) {
-        for (int k = i; k < i + some; ++k) intensity[k] = shadow_as<Intensity>(sample(map, x[k], y[k]), detail::as_depth(z[k]), r);
-    };
-    for (int i = 0; i < together; i += step)
-        if (!blended::one(by, &x[i], &y[i], &z[i], &intensity[i])) exactly(i, step);
+    if (together > 0) blended::some(by, map, &x[0], &y[0], &z[0], &intensity[0], together, r);
     for (int i = together; i < count; i += step) {
-        const int some = lesser(step, count - i);
+        const int here = lesser(step, count - i);
         float px[static_cast<std::size_t>(step)]{}, py[static_cast<std::size_t>(step)]{};
         Depth depth[static_cast<std::size_t>(step)]{};
         Intensity made[static_cast<std::size_t>(step)];
-        for (int k = 0; k < some; ++k) px[k] = x[i + k], py[k] = y[i + k], depth[k] = z[i + k];
-        if (blended::one(by, px, py, depth, made))
-            for (int k = 0; k < some; ++k) intensity[i + k] = made[k];
-        else
-            exactly(i, some);
+        for (int k = 0; k < here; ++k) px[k] = x[i + k], py[k] = y[i + k], depth[k] = z[i + k];
+        blended::some(by, map, px, py, depth, made, step, r);
+        for (int k = 0; k < here; ++k) intensity[i + k] = made[k];
     }
     return true;
 }

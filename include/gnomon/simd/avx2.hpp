@@ -76,10 +76,6 @@ struct avx2 {
     GNOMON_LANES ints greater32(ints a, ints b) noexcept { return _mm256_max_epi32(a, b); }
     template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return _mm256_slli_epi32(a, Bits); }
     template <int Bits> GNOMON_LANES ints shift_right32(ints a) noexcept { return _mm256_srai_epi32(a, Bits); }
-    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
-        const ints none = _mm256_setzero_si256(), all = _mm256_cmpeq_epi32(none, none);
-        return _mm256_mask_i32gather_epi32(none, static_cast<const int*>(from), offsets, all, 1);
-    }
     GNOMON_LANES ints floor32(floats a) noexcept { return _mm256_cvttps_epi32(_mm256_floor_ps(a)); }
 
     GNOMON_LANES floats load(const float* from) noexcept { return _mm256_loadu_ps(from); }
@@ -121,6 +117,7 @@ struct avx2 {
     GNOMON_LANES floats multiply(floats a, floats b) noexcept { return _mm256_mul_ps(a, b); }
     GNOMON_LANES floats add_product(floats sum, floats a, floats b) noexcept { return _mm256_fmadd_ps(a, b, sum); }
     GNOMON_LANES bool any(masks a) noexcept { return _mm256_movemask_ps(a) != 0; }
+    GNOMON_LANES bool every(masks a) noexcept { return _mm256_movemask_ps(a) == 255; }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
         const ints whole = _mm256_cvttps_epi32(a);
         const __m128i words = _mm_packus_epi32(_mm256_castsi256_si128(whole), _mm256_extracti128_si256(whole, 1));

@@ -67,9 +67,6 @@ struct avx512 {
     GNOMON_LANES ints greater32(ints a, ints b) noexcept { return _mm512_maskz_max_epi32(all, a, b); }
     template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return _mm512_maskz_slli_epi32(all, a, Bits); }
     template <int Bits> GNOMON_LANES ints shift_right32(ints a) noexcept { return _mm512_maskz_srai_epi32(all, a, Bits); }
-    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
-        return _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), all, offsets, from, 1);
-    }
     GNOMON_LANES ints floor32(floats a) noexcept {
         return _mm512_maskz_cvt_roundps_epi32(all, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
     }
@@ -114,6 +111,7 @@ struct avx512 {
     GNOMON_LANES floats multiply(floats a, floats b) noexcept { return _mm512_mul_ps(a, b); }
     GNOMON_LANES floats add_product(floats sum, floats a, floats b) noexcept { return _mm512_fmadd_ps(a, b, sum); }
     GNOMON_LANES bool any(masks a) noexcept { return a != 0; }
+    GNOMON_LANES bool every(masks a) noexcept { return a == 0xFFFF; }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
         const ints whole = _mm512_maskz_cvttps_epi32(all, a);
         if constexpr (std::same_as<Channel, unorm8>) {

@@ -149,11 +149,6 @@ template <int Bytes> struct emulated {
     template <int Bits> [[nodiscard]] static ints shift_right32(ints a) noexcept {
         return each<std::int32_t>([&](int i) { return at<std::int32_t>(a, i) >> Bits; });
     }
-    /// 32 bits from each of so many bytes behind `from`, at any alignment.
-    [[nodiscard]] static ints gather32(const void* from, ints offsets) noexcept {
-        return each<std::uint32_t>(
-            [&](int i) { return copied<std::uint32_t>(static_cast<const std::byte*>(from) + at<std::int32_t>(offsets, i)); });
-    }
     /// The largest whole number of 32 bits that is not greater; -2^31 of what is beyond them, and of NaN.
     [[nodiscard]] static ints floor32(floats a) noexcept {
         return each<std::int32_t>([&](int i) {
@@ -215,6 +210,11 @@ template <int Bytes> struct emulated {
     /// sum + a * b, \pre a * b is exact, so that it does not matter who fuses them.
     [[nodiscard]] static floats add_product(floats sum, floats a, floats b) noexcept {
         return of_floats<floats>([&](int i) { return sum.lane[i] + a.lane[i] * b.lane[i]; });
+    }
+    [[nodiscard]] static bool every(masks a) noexcept {
+        bool each = true;
+        for (int i = 0; i < float_lanes; ++i) each &= a.lane[i];
+        return each;
     }
     [[nodiscard]] static bool any(masks a) noexcept {
         bool one = false;

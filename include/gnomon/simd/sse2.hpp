@@ -79,12 +79,6 @@ struct sse2 {
     GNOMON_LANES ints greater32(ints a, ints b) noexcept { return chosen(_mm_cmpgt_epi32(a, b), a, b); }
     template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return _mm_slli_epi32(a, Bits); }
     template <int Bits> GNOMON_LANES ints shift_right32(ints a) noexcept { return _mm_srai_epi32(a, Bits); }
-    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
-        int offset[4], found[4];
-        store(offset, offsets);
-        for (int i = 0; i < 4; ++i) std::memcpy(&found[i], static_cast<const char*>(from) + offset[i], sizeof found[i]);
-        return load(found);
-    }
     GNOMON_LANES ints floor32(floats a) noexcept { // of NaN and what is too little the maximum is -2^31, which stays as it is
         const floats bounded = _mm_max_ps(a, _mm_set1_ps(-0x1p31f));
         const ints whole = _mm_cvttps_epi32(bounded);
@@ -130,6 +124,7 @@ struct sse2 {
     GNOMON_LANES floats multiply(floats a, floats b) noexcept { return _mm_mul_ps(a, b); }
     GNOMON_LANES floats add_product(floats sum, floats a, floats b) noexcept { return _mm_add_ps(sum, _mm_mul_ps(a, b)); }
     GNOMON_LANES bool any(masks a) noexcept { return _mm_movemask_ps(a) != 0; }
+    GNOMON_LANES bool every(masks a) noexcept { return _mm_movemask_ps(a) == 15; }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
         const ints whole = _mm_cvttps_epi32(a);
         if constexpr (std::same_as<Channel, unorm8>) {
