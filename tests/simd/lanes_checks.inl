@@ -98,8 +98,8 @@ template <typename Isa> int wrong_floats(const float* number) {
            !equal(Isa::keep(Isa::both(Isa::greater(a, b), Isa::greater(a, c)), one),
                   same::keep(same::both(same::greater(e, f), same::greater(e, g)), unit)) +
            !equal(Isa::keep(Isa::positive(a, b, c), one), same::keep(same::positive(e, f, g), unit)) +
-           !equal(Isa::multiply(a, b), same::multiply(e, f)) + differing<Isa>(Isa::floor32(a), same::floor32(e)) +
-           (Isa::any(Isa::greater(a, b)) != same::any(same::greater(e, f))) +
+           !equal(Isa::multiply(a, b), same::multiply(e, f)) + !equal(Isa::lesser(a, b), same::lesser(e, f)) +
+           differing<Isa>(Isa::floor32(a), same::floor32(e)) + (Isa::any(Isa::greater(a, b)) != same::any(same::greater(e, f))) +
            (Isa::every(Isa::greater(a, b)) != same::every(same::greater(e, f))) +
            (Isa::every(Isa::greater(d, c)) != same::every(same::greater(h, g))) +
            (Isa::any(Isa::greater(c, d)) != same::any(same::greater(g, h)));

@@ -117,6 +117,8 @@ struct avx2 {
     GNOMON_LANES floats multiply(floats a, floats b) noexcept { return _mm256_mul_ps(a, b); }
     GNOMON_LANES floats add_product(floats sum, floats a, floats b) noexcept { return _mm256_fmadd_ps(a, b, sum); }
     GNOMON_LANES bool any(masks a) noexcept { return _mm256_movemask_ps(a) != 0; }
+    GNOMON_LANES floats lesser(floats a, floats b) noexcept { return _mm256_min_ps(b, a); }
+    GNOMON_LANES_VOID void settle(floats& a) noexcept { GNOMON_SETTLE(a); }
     GNOMON_LANES bool every(masks a) noexcept { return _mm256_movemask_ps(a) == 255; }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
         const ints whole = _mm256_cvttps_epi32(a);

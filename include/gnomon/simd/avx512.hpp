@@ -111,6 +111,8 @@ struct avx512 {
     GNOMON_LANES floats multiply(floats a, floats b) noexcept { return _mm512_mul_ps(a, b); }
     GNOMON_LANES floats add_product(floats sum, floats a, floats b) noexcept { return _mm512_fmadd_ps(a, b, sum); }
     GNOMON_LANES bool any(masks a) noexcept { return a != 0; }
+    GNOMON_LANES floats lesser(floats a, floats b) noexcept { return _mm512_maskz_min_ps(all, b, a); }
+    GNOMON_LANES_VOID void settle(floats& a) noexcept { GNOMON_SETTLE(a); }
     GNOMON_LANES bool every(masks a) noexcept { return a == 0xFFFF; }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
         const ints whole = _mm512_maskz_cvttps_epi32(all, a);

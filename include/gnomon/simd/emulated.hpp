@@ -137,7 +137,7 @@ template <int Bytes> struct emulated {
         return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) * at<std::uint32_t>(b, i); });
     }
     [[nodiscard]] static ints lesser32(ints a, ints b) noexcept {
-        return each<std::int32_t>([&](int i) { return lesser(at<std::int32_t>(a, i), at<std::int32_t>(b, i)); });
+        return each<std::int32_t>([&](int i) { return gnomon::lesser(at<std::int32_t>(a, i), at<std::int32_t>(b, i)); });
     }
     [[nodiscard]] static ints greater32(ints a, ints b) noexcept {
         return each<std::int32_t>([&](int i) { return gnomon::greater(at<std::int32_t>(a, i), at<std::int32_t>(b, i)); });
@@ -210,6 +210,14 @@ template <int Bytes> struct emulated {
     /// sum + a * b, \pre a * b is exact, so that it does not matter who fuses them.
     [[nodiscard]] static floats add_product(floats sum, floats a, floats b) noexcept {
         return of_floats<floats>([&](int i) { return sum.lane[i] + a.lane[i] * b.lane[i]; });
+    }
+    /// b where it is less, else a.
+    [[nodiscard]] static floats lesser(floats a, floats b) noexcept {
+        return of_floats<floats>([&](int i) { return gnomon::lesser(a.lane[i], b.lane[i]); });
+    }
+    /// Nothing. Where a compiler would fuse a product with what is added to it, it is rounded first.
+    static void settle(floats& a) noexcept {
+        for (int i = 0; i < float_lanes; ++i) GNOMON_SETTLE(a.lane[i]);
     }
     [[nodiscard]] static bool every(masks a) noexcept {
         bool each = true;

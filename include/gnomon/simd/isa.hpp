@@ -72,6 +72,8 @@ concept simd_isa =
         { Isa::multiply(f, f) } -> std::same_as<typename Isa::floats>;
         { Isa::add_product(f, f, f) } -> std::same_as<typename Isa::floats>;
         { Isa::any(m) } -> std::same_as<bool>;
+        { Isa::lesser(f, f) } -> std::same_as<typename Isa::floats>;
+        { Isa::settle(f) };
         { Isa::every(m) } -> std::same_as<bool>;
         { Isa::template store_codes<unorm8>(codes, f) };
         { Isa::load(static_cast<const double*>(wides)) } -> std::same_as<typename Isa::doubles>;

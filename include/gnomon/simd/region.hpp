@@ -43,6 +43,8 @@
 // Keeps a sum where it stands: see emulated::settle.
 #if defined(__GNUC__) && defined(__x86_64__)
 #define GNOMON_SETTLE(a) asm("" : "+v"(a))
+#elif defined(__GNUC__) && defined(__aarch64__)
+#define GNOMON_SETTLE(a) asm("" : "+w"(a))
 #else
 #define GNOMON_SETTLE(a) static_cast<void>(a)
 #endif

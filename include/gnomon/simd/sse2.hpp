@@ -124,6 +124,8 @@ struct sse2 {
     GNOMON_LANES floats multiply(floats a, floats b) noexcept { return _mm_mul_ps(a, b); }
     GNOMON_LANES floats add_product(floats sum, floats a, floats b) noexcept { return _mm_add_ps(sum, _mm_mul_ps(a, b)); }
     GNOMON_LANES bool any(masks a) noexcept { return _mm_movemask_ps(a) != 0; }
+    GNOMON_LANES floats lesser(floats a, floats b) noexcept { return _mm_min_ps(b, a); }
+    GNOMON_LANES_VOID void settle(floats& a) noexcept { GNOMON_SETTLE(a); }
     GNOMON_LANES bool every(masks a) noexcept { return _mm_movemask_ps(a) == 15; }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
         const ints whole = _mm_cvttps_epi32(a);
