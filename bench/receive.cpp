@@ -4,6 +4,8 @@
 // and intensities of 8. All run in one process.
 //     scalar, simd, simd.avx2, simd.sse2     one receiver a texel, in rows
 //     copy                                   the floor: memcpy that moves as many bytes
+//     points, points.avx2, points.scalar     one receiver a texel at positions of its own, side by side but turned a little
+//     gather, gather.avx2                    the floor of these: two gathers of 32 bits and a store
 //     opencv                                 divide, subtract, compare, setTo, copyTo on planes, in one thread, if CMake found OpenCV
 #include <gnomon/backend/simd.hpp>
 
@@ -14,6 +16,9 @@
 #include <cstring>
 #include <random>
 #include <string>
+#if GNOMON_X86
+#include <immintrin.h>
+#endif
 #if GNOMON_BENCH_OPENCV
 #include <opencv2/core.hpp>
 #endif
@@ -96,6 +101,99 @@ template <typename Texel, typename Depth, typename Intensity> void add_format(co
     }
 }
 
+/// Positions as a camera sees them: neighbours are neighbours, a texel or so apart, and no row of them is a row of the map.
+struct turned {
+    image<float> x, y;
+    explicit turned(int size) : x({size, size}), y({size, size}) {
+        const float middle = static_cast<float>(size) / 2.0f;
+        for (int j = 0; j < size; ++j)
+            for (int i = 0; i < size; ++i) {
+                const float right = static_cast<float>(i) - middle, down = static_cast<float>(j) - middle;
+                x(i, j) = middle + 0.6f * right - 0.3f * down;
+                y(i, j) = middle + 0.3f * right + 0.6f * down;
+            }
+    }
+};
+
+template <typename Backend> void add_points(const char* what, int size) {
+    add(what, "u8x2.f32", size, square(size) * 16, [size](benchmark::State& state) {
+        const scene<rg8, float> from(size);
+        const turned at(size);
+        image<float> intensity({size, size});
+        for ([[maybe_unused]] auto _ : state) {
+            receive(Backend{}, from.texels.view(), row_of(at.x), row_of(at.y), row_of(from.z), row_of(intensity));
+            benchmark::ClobberMemory();
+        }
+    });
+}
+
+/// Where gathers find what receivers need, in bytes; what else receivers read is only added up, and what they compute left out.
+struct offsets {
+    image<int> at, other, more;
+    explicit offsets(int size) : at({size, size}), other({size, size}), more({size, size}) {
+        const turned p(size);
+        const image<rg8> map({size, size});
+        for (int j = 0; j < size; ++j)
+            for (int i = 0; i < size; ++i)
+                at(i, j) = static_cast<int>(map.view().stride()) * static_cast<int>(p.y(i, j) - 0.5f) +
+                           2 * static_cast<int>(p.x(i, j) - 0.5f);
+    }
+};
+
+template <typename F> void add_gathers(const char* what, int size, F&& gather_twice) {
+    add(what, "u8x2.f32", size, square(size) * 16, [size, gather_twice](benchmark::State& state) {
+        const scene<rg8, float> from(size);
+        const offsets where(size);
+        image<int> found({size, size});
+        const auto* map = reinterpret_cast<const char*>(&from.texels(0, 0));
+        for ([[maybe_unused]] auto _ : state) {
+            gather_twice(map, from.texels.view().stride(), where, &found(0, 0), size * size);
+            benchmark::ClobberMemory();
+        }
+    });
+}
+
+#if GNOMON_X86
+GNOMON_TARGET_BEGIN(GNOMON_AVX2)
+void gather_twice_avx2(const char* map, std::ptrdiff_t row, const offsets& where, int* to, int count) {
+    const int *at = &where.at(0, 0), *other = &where.other(0, 0), *more = &where.more(0, 0);
+    const __m256i none = _mm256_setzero_si256(), all = _mm256_cmpeq_epi32(none, none);
+    for (int i = 0; i < count; i += 8) {
+        const __m256i offset = avx2::load(at + i);
+        const __m256i above = _mm256_mask_i32gather_epi32(none, reinterpret_cast<const int*>(map), offset, all, 1);
+        const __m256i below = _mm256_mask_i32gather_epi32(none, reinterpret_cast<const int*>(map + row), offset, all, 1);
+        avx2::store(to + i, avx2::add32(avx2::add32(above, below), avx2::add32(avx2::load(other + i), avx2::load(more + i))));
+    }
+}
+GNOMON_TARGET_END
+GNOMON_TARGET_BEGIN(GNOMON_AVX512)
+void gather_twice_avx512(const char* map, std::ptrdiff_t row, const offsets& where, int* to, int count) {
+    const int *at = &where.at(0, 0), *other = &where.other(0, 0), *more = &where.more(0, 0);
+    for (int i = 0; i < count; i += 16) {
+        const __m512i offset = avx512::load(at + i), none = _mm512_setzero_si512();
+        const __m512i above = _mm512_mask_i32gather_epi32(none, 0xFFFF, offset, map, 1);
+        const __m512i below = _mm512_mask_i32gather_epi32(none, 0xFFFF, offset, map + row, 1);
+        avx512::store(to + i,
+                      avx512::add32(avx512::add32(above, below), avx512::add32(avx512::load(other + i), avx512::load(more + i))));
+    }
+}
+GNOMON_TARGET_END
+#endif
+
+void add_all_points(int size) {
+    add_points<scalar>("points.scalar", size);
+    add_points<simd<>>("points", size);
+#if GNOMON_X86
+    if (best_lanes() < cpu_level::avx2) return;
+    add_points<simd<avx2>>("points.avx2", size);
+    add_gathers("gather.avx2", size, gather_twice_avx2);
+    if (best_lanes() >= cpu_level::avx512)
+        add_gathers("gather", size, gather_twice_avx512);
+    else
+        add_gathers("gather", size, gather_twice_avx2);
+#endif
+}
+
 /// s = 1 - e/m, shadowed where z > s, and there the mask: on planes, which is how OpenCV likes it best.
 void add_opencv([[maybe_unused]] int size) {
 #if GNOMON_BENCH_OPENCV
@@ -129,7 +227,10 @@ int main(int count, char** words) {
     add_format<rg16, std::uint16_t, std::uint16_t>("u16x2.z16");
     add_format<rg16, float, float>("u16x2.f32");
     add_format<rg32f, float, float>("f32x2.f32");
-    for (const int size : {128, 1024, 4096}) add_opencv(size);
+    for (const int size : {128, 1024, 4096}) {
+        add_all_points(size);
+        add_opencv(size);
+    }
     benchmark::Initialize(&count, words);
     if (benchmark::ReportUnrecognizedArguments(count, words)) return 1;
     benchmark::RunSpecifiedBenchmarks();

@@ -60,6 +60,9 @@ def receives(path):
     time, ratios = medians(path), {}
     for name, of_lanes in time.items():
         what, of, size = name.split("/")
+        if what in ("points", "points.avx2") and (floor := time.get(f"gather{what.removeprefix('points')}/{of}/{size}")):
+            where = "" if size == "1024" else "_" + WHERE[size]
+            ratios[f"receive.bilinear.{of.removesuffix('.f32')}.of_gather{where}{what.removeprefix('points')}"] = floor / of_lanes
         if what not in ("simd", "simd.avx2", "simd.sse2"):
             continue
         suffix = what.removeprefix("simd")

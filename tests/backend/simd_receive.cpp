@@ -5,6 +5,7 @@
 
 #include "../support/formats.hpp"
 #include "../support/lanes.hpp"
+#include "../support/threshold.hpp"
 
 #include <doctest/doctest.h>
 
@@ -91,6 +92,40 @@ TEST_CASE_TEMPLATE(
         for_each_isa([&]<typename Isa>() {
             simd<Isa>{}.receive(gnomon::strided_span<const Texel>(texels), gnomon::strided_span<const float>(z),
                                 gnomon::strided_span<float>(made), {.caster = towards});
+            CHECK(expected == made);
+        });
+    }
+}
+
+TEST_CASE_TEMPLATE("lanes decide floats and halves exactly: at the float where a shadow begins, one before and one after; and the "
+                   "smallest masks and depths",
+                   Texel, gnomon::rg32f, gnomon::rg16f) {
+    dice roll(405);
+    const gnomon::rule rules[] = {
+        {}, {.caster = gnomon::unbiased}, {.caster = gnomon::towards_shadow}, {.caster = {.caster_is_code = true}}};
+    for (const gnomon::rule& r : rules) {
+        std::vector<Texel> texels;
+        std::vector<float> z;
+        for (int i = 0; i < 3000; ++i) {
+            // Masks down to nothing; depths that are nothing, all of the mask, or a share of it, of few or many bits.
+            const float mask = std::ldexp(0.5f + roll.unit() / 2.0f, roll.one_in(2) ? -roll(0, 3) : -roll(0, 149));
+            const float share = roll.one_in(4) ? static_cast<float>(roll(0, 1))
+                                               : (roll.one_in(2) ? roll.unit() : static_cast<float>(roll(0, 16)) / 16.0f);
+            Texel t{};
+            t.stored[1] = Texel::channel_type::encode(static_cast<double>(mask));
+            t.stored[0] = Texel::channel_type::encode(static_cast<double>(Texel::channel_type::code(t.stored[1])) *
+                                                      static_cast<double>(share));
+            const float s = test::first_shadowed(t, r);
+            for (const float at :
+                 {std::nextafter(s, -1.0f), s, std::nextafter(s, 20.0f), 0x1p-149f, 0x1p-60f, 1.0f, std::nextafter(1.0f, 0.0f)}) {
+                texels.push_back(t);
+                z.push_back(at);
+            }
+        }
+        std::vector<float> expected(z.size()), made(z.size());
+        gnomon::receive(texels, z, expected, r);
+        for_each_isa([&]<typename Isa>() {
+            gnomon::receive(simd<Isa>{}, texels, z, made, r);
             CHECK(expected == made);
         });
     }

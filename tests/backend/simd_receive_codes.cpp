@@ -35,6 +35,10 @@ using byte_row_of_floats = row_of<rg8, float, std::uint8_t>;
 using word_row = row_of<rg16, std::uint16_t, std::uint16_t>;
 using float_row = row_of<gnomon::rg32f, float, float>;
 using float_row_of_codes = row_of<gnomon::rg32f, std::uint16_t, float>;
+using words_to_bytes = row_of<rg16, float, std::uint8_t>;
+using bytes_to_words = row_of<rg8, std::uint16_t, std::uint16_t>;
+using translucent_words = row_of<gnomon::rga16, std::uint16_t, float>;
+using half_row_to_floats = row_of<gnomon::rg16f, std::uint16_t, float>;
 using half_row = row_of<gnomon::rg16f, std::uint16_t, std::uint8_t>;
 using bounded_row = row_of<gnomon::rgb8, std::uint16_t, std::uint8_t>;
 using translucent_row = row_of<gnomon::rga8, std::uint16_t, std::uint8_t>;
@@ -74,12 +78,17 @@ TYPE_TO_STRING_AS("bytes, float depths", byte_row_of_floats);
 TYPE_TO_STRING_AS("16 bits, depths of 16 bits", word_row);
 TYPE_TO_STRING_AS("floats", float_row);
 TYPE_TO_STRING_AS("floats, depths of 16 bits", float_row_of_codes);
+TYPE_TO_STRING_AS("16 bits to bytes", words_to_bytes);
+TYPE_TO_STRING_AS("bytes to 16 bits", bytes_to_words);
+TYPE_TO_STRING_AS("translucent 16 bits to floats", translucent_words);
+TYPE_TO_STRING_AS("halves to floats", half_row_to_floats);
 TYPE_TO_STRING_AS("halves", half_row);
 TYPE_TO_STRING_AS("far bounds", bounded_row);
 TYPE_TO_STRING_AS("translucent", translucent_row);
 
 TEST_CASE_TEMPLATE("lanes decide on codes as the oracle does: every width to 140, any stride, alignment and rule", Row, byte_row,
-                   byte_row_of_floats, word_row, float_row, float_row_of_codes, half_row, bounded_row, translucent_row) {
+                   byte_row_of_floats, word_row, float_row, float_row_of_codes, half_row, words_to_bytes, bytes_to_words,
+                   translucent_words, half_row_to_floats, bounded_row, translucent_row) {
     using Texel = typename Row::texel;
     using Depth = typename Row::depth;
     using Intensity = typename Row::intensity;
@@ -137,6 +146,60 @@ TEST_CASE("lanes decide every pair of bytes as the oracle does, at the codes whe
             CHECK(expected == made);
         });
     }
+}
+
+TEST_CASE_TEMPLATE(
+    "lanes decide pairs of 16 bits, floats and halves as the oracle does, at the codes where a shadow begins and beside them", Row,
+    word_row, bytes_to_words, float_row_of_codes, half_row_to_floats, translucent_words) {
+    using Texel = typename Row::texel;
+    dice roll(422);
+    for (const rule& r : rules()) {
+        std::vector<Texel> texels;
+        std::vector<std::uint16_t> z;
+        for (int i = 0; i < 2000; ++i) {
+            const Texel t = test::any_caster<Texel>(roll);
+            int lit = 0, dark = 65536;
+            while (dark - lit > 1) {
+                const int middle = (lit + dark) / 2;
+                const bool is_dark =
+                    gnomon::shadow_as<float>(read(t), gnomon::depth16{static_cast<std::uint16_t>(middle)}, r) > 0.0f;
+                (is_dark ? dark : lit) = middle;
+            }
+            for (const int code : {lit - 1, lit, lit + 1, lit + 2}) {
+                texels.push_back(t);
+                z.push_back(static_cast<std::uint16_t>(code < 0 ? 0 : (code > 65535 ? 65535 : code)));
+            }
+        }
+        std::vector<typename Row::intensity> expected(z.size()), made(z.size());
+        gnomon::receive(texels, z, expected, r);
+        for_each_isa([&]<typename Isa>() {
+            gnomon::receive(simd<Isa>{}, texels, z, made, r);
+            CHECK(std::memcmp(expected.data(), made.data(), made.size() * sizeof made[0]) == 0);
+        });
+    }
+}
+
+TEST_CASE("every mask is stored as the oracle stores it, as 8 bits, as 16 and as a float") {
+    std::vector<rg16> words(65536);
+    std::vector<rg8> bytes(65536);
+    for (int m = 0; m < 65536; ++m) {
+        words[static_cast<std::size_t>(m)] = {{static_cast<std::uint16_t>(m), static_cast<std::uint16_t>(m)}};
+        bytes[static_cast<std::size_t>(m)] = {{static_cast<std::uint8_t>(m), static_cast<std::uint8_t>(m)}};
+    }
+    const std::vector<std::uint16_t> last(65536, 65535);
+    const auto agree = [&]<typename Isa, typename Texel, typename Intensity>(const std::vector<Texel>& texels, Intensity) {
+        std::vector<Intensity> expected(65536), made(65536);
+        gnomon::receive(texels, last, expected);
+        gnomon::receive(simd<Isa>{}, texels, last, made);
+        CHECK(std::memcmp(expected.data(), made.data(), made.size() * sizeof(Intensity)) == 0);
+    };
+    for_each_isa([&]<typename Isa>() {
+        agree.template operator()<Isa>(words, std::uint8_t{});
+        agree.template operator()<Isa>(words, std::uint16_t{});
+        agree.template operator()<Isa>(words, 0.0f);
+        agree.template operator()<Isa>(bytes, std::uint16_t{});
+        agree.template operator()<Isa>(bytes, 0.0f);
+    });
 }
 
 TEST_CASE_TEMPLATE("results may take the place of what they come from, in lanes as in the oracle", Row, byte_row, word_row,

@@ -169,13 +169,13 @@ TEST_CASE("lanes read nothing beside the map: its memory ends where its last tex
         const auto memory = std::make_unique<rg8[]>(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
         const image_view<rg8> map(memory.get(), size);
         test::for_each_texel(whole(size), [&](int x, int y) { map(x, y) = test::any_caster<rg8>(roll); });
-        const image<rg8> none;
-        points p;
-        for (int i = 0; i < 2000; ++i) {
-            p.x.push_back(static_cast<float>(size.width + 4) * roll.unit() - 2.0f);
-            p.y.push_back(static_cast<float>(size.height + 4) * roll.unit() - 2.0f);
-            p.z.push_back(roll.unit());
-        }
+        points p; // whole registers of neighbours, among them some within a texel of each border
+        for (float y = -1.0f; y < static_cast<float>(size.height + 1); y += 0.11f)
+            for (float x = -1.0f; x < static_cast<float>(size.width + 1); x += 1.0f / 64) {
+                p.x.push_back(x);
+                p.y.push_back(y);
+                p.z.push_back(1.0f);
+            }
         std::vector<float> expected(p.x.size()), made(p.x.size());
         gnomon::receive(map, p.x, p.y, p.z, expected);
         for_each_isa([&]<typename Isa>() {

@@ -26,7 +26,6 @@ struct checks_of {
     int (*ints)(const memory*);
     int (*words)(const memory*);
     int (*longs)(const memory*);
-    int (*gathers)(const memory*);
     int (*doubles)(const double*);
     int (*products)(const double*, const double*);
     int (*floats)(const float*);
@@ -101,20 +100,6 @@ TEST_CASE("operations on whole numbers give the bits of the emulated ones") {
                 for (unsigned char& byte : each.byte)
                     byte = static_cast<unsigned char>(roll(0, 3) == 0 ? 128 * roll(0, 1) + 127 * roll(0, 1) : roll(0, 255));
             wrong += target.ints(m) + target.longs(m);
-        }
-        CHECK(wrong == 0);
-    });
-}
-
-TEST_CASE("what is gathered lies on both sides of an address") {
-    test::dice roll(415);
-    for_each_target([&](const checks_of& target) {
-        int wrong = 0;
-        for (int n = 0; n < 2000; ++n) {
-            memory m[4];
-            for (memory& each : m)
-                for (unsigned char& byte : each.byte) byte = static_cast<unsigned char>(roll(0, 255));
-            wrong += target.gathers(m);
         }
         CHECK(wrong == 0);
     });

@@ -7,53 +7,142 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <cstring>
+#include <type_traits>
 
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
-/// Whole codes of premultiplied pairs that no receiver bounds: what lanes can decide exactly.
+/// Premultiplied pairs that no receiver bounds: what lanes decide.
 template <texel_format Texel>
-inline constexpr bool pairs_of_codes =
-    Texel::channel_type::whole_codes && !Texel::effects.far_bound && std::same_as<typename Texel::representation_type, depth_mask>;
+inline constexpr bool decidable_pairs = !Texel::effects.far_bound && std::same_as<typename Texel::representation_type, depth_mask>;
 
-/// One register of receivers at a time. A receiver is shadowed iff e > m (1-z), see receive/decide.hpp; here it is m z + (e-m) > 0.
-/// Codes, and the halves they are biased by, keep e-m exact in float, and the sum is asked for nothing but its sign.
-template <typename Isa, texel_format Texel> struct decision {
+/// Pairs of two bytes.
+template <texel_format Texel>
+inline constexpr bool byte_pairs =
+    decidable_pairs<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, unorm8>;
+
+/// One register of receivers at a time. A receiver is shadowed iff e > m (1-z), see receive/decide.hpp: of a biased pair and depth, the
+/// sign of a product and a sum, and exact wherever `decided` says that it is. What is left goes by the scalar loop: with float depths
+/// no codes, and no pair with 0 <= e <= m and m > 2^-50; with depths in codes one receiver in a million, and who is moved behind every
+/// caster.
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct decision {
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
     using floats = typename Isa::floats;
+    using masks = typename Isa::masks;
     static constexpr int step = Isa::float_lanes;
+    static constexpr bool whole_codes = channel_type::whole_codes;
 
-    floats e, m, z;  ///< the bias: what the pair and the receiver are moved by
-    floats farthest; ///< beyond is lit
+    floats depth_less, depth_share, mask_more, mask_share, nearer; ///< the bias
+    floats least_mask;                                             ///< what float decides of
+    bool exact_zero;                                               ///< e = m may be, and a depth that is next to nothing tell
+    const rule* by_rule;
 
     [[nodiscard]] static decision of(const rule& r) noexcept {
-        const biased moved = apply<Texel>(r.caster, 0.0, 0.0, 0.0f);
-        constexpr float nowhere = std::numeric_limits<float>::infinity();
-        return {Isa::repeat(static_cast<float>(moved.e)), Isa::repeat(static_cast<float>(moved.m)), Isa::repeat(moved.z),
-                Isa::repeat(r.lit_beyond ? 1.0f : nowhere)};
+        const auto steps = bias_steps<Texel>::of(r.caster);
+        const float moved = std::same_as<Depth, float> ? steps.nearer : static_cast<float>(codes_towards_light<Texel>(r.caster));
+        return {Isa::repeat(static_cast<float>(steps.depth_less)),
+                Isa::repeat(static_cast<float>(steps.depth_share)),
+                Isa::repeat(static_cast<float>(steps.mask_more)),
+                Isa::repeat(static_cast<float>(steps.mask_share)),
+                Isa::repeat(moved),
+                Isa::repeat(whole_codes ? 0.0f : 0x1p-50f),
+                r.caster.towards != bias_towards::light || r.caster.roundings < 1,
+                &r};
     }
 
     GNOMON_LANES floats codes(const storage* texels, int index) noexcept {
         return Isa::template codes_of<channel_type, Texel::channels>(texels, index);
     }
-
-    GNOMON_LANES_VOID void one(const decision& by, const storage* texels, const float* depths, float* intensities) noexcept {
-        const floats zero = Isa::repeat(0.0f), depth = Isa::load(depths);
-        const floats mask = codes(texels, Texel::mask_index), biased_mask = Isa::add(mask, by.m);
-        const floats rest = Isa::subtract(Isa::add(codes(texels, Texel::depth_index), by.e), biased_mask);
-        // Doubled they are whole, and times the least depth there is still something.
-        auto shadowed = Isa::positive(Isa::add(biased_mask, biased_mask), Isa::add(depth, by.z), Isa::add(rest, rest));
-        shadowed = Isa::both(Isa::both(shadowed, Isa::greater(depth, zero)),
-                             Isa::both(Isa::greater(mask, zero), Isa::not_greater(depth, by.farthest)));
-        floats darkness = mask;
-        if constexpr (Texel::effects.translucency) darkness = codes(texels, Texel::contribution_index);
-        Isa::store(intensities, Isa::keep(shadowed, Isa::fraction(darkness, channel_type::scale)));
+    /// (a + more) share, as `apply` has it.
+    GNOMON_LANES floats moved(floats a, const floats& share) noexcept {
+        if constexpr (whole_codes) return a; // the share is 1
+        floats product = Isa::multiply(a, share);
+        Isa::settle(product); // nothing that is added to it may be fused with it
+        return product;
     }
-    GNOMON_LANES_VOID void rows(const decision& by, const storage* texels, const float* depths, float* intensities,
-                                int count) noexcept {
-        for (int i = 0; i < count; i += step) one(by, texels + i * Texel::channels, depths + i, intensities + i);
+
+    /// m z + (e-m) > 0. Codes, and the halves they are biased by, keep e-m exact, and the product is asked for its sign.
+    GNOMON_LANES bool decided_codes(const decision& by, const floats& e, const floats& m, const float* depths,
+                                    masks& shadowed) noexcept {
+        const floats depth = Isa::load(depths), rest = Isa::subtract(e, m);
+        // Doubled they are whole, and times the least depth there is still something.
+        shadowed = Isa::positive(Isa::add(m, m), Isa::subtract(depth, by.nearer), Isa::add(rest, rest));
+        shadowed = Isa::both(shadowed, Isa::greater(depth, Isa::repeat(0.0f)));
+        if (by.by_rule->lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
+        return true;
+    }
+    /// For z < 1/2 the same, where e-m is exact if e >= m/2, and if not, m z < m/2 is less than it either way; else m (z-1) + e > 0, where
+    /// z-1 is exact up to 2^24, and beyond that everything is behind every caster.
+    GNOMON_LANES bool decided_floats(const decision& by, const floats& e, const floats& m, const masks& there, const float* depths,
+                                     masks& shadowed) noexcept {
+        const floats depth = Isa::load(depths), zero = Isa::repeat(0.0f), half = Isa::repeat(0.5f), least = Isa::repeat(0x1p-50f);
+        const floats z = Isa::subtract(depth, by.nearer);
+        const floats beyond = Isa::subtract(z, Isa::keep(Isa::not_greater(half, z), Isa::repeat(1.0f)));
+        const floats rest = Isa::subtract(e, Isa::keep(Isa::greater(half, z), m));
+        shadowed = Isa::both(Isa::positive(m, beyond, rest), Isa::both(there, Isa::greater(depth, zero)));
+        if (by.by_rule->lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
+        const bool told =
+            !Isa::any(Isa::both(there, Isa::greater(e, m))) && !Isa::any(Isa::both(there, Isa::not_greater(m, least)));
+        return told && !(by.exact_zero && Isa::any(Isa::both(Isa::greater(z, zero), Isa::greater(least, z))));
+    }
+    /// m z + (e-m) 65535 > 0, z in codes. Three roundings are wrong by 3 * 2^-24 * 65535 m < m/64 at most where the two cancel; so
+    /// within m/16 of nothing the sum says nothing.
+    GNOMON_LANES bool decided_sums(const decision& by, const floats& e, const floats& m, const masks& there,
+                                   const std::uint16_t* depths, masks& shadowed) noexcept {
+        const floats zero = Isa::repeat(0.0f), last = Isa::repeat(static_cast<float>(depth16::last));
+        const floats code = Isa::template codes_of<unorm16, 1>(depths, 0), z = Isa::subtract(code, by.nearer);
+        const floats sum = Isa::add_product(Isa::multiply(Isa::subtract(e, m), last), m, z),
+                     doubt = Isa::multiply(m, Isa::repeat(0.0625f));
+        const masks asked = Isa::both(there, Isa::both(Isa::greater(code, zero), Isa::greater(z, zero)));
+        shadowed = Isa::both(asked, Isa::greater(sum, doubt));
+        const masks near_nothing = Isa::both(Isa::not_greater(sum, doubt), Isa::not_greater(Isa::subtract(zero, doubt), sum));
+        return !Isa::any(Isa::both(asked, near_nothing)) && !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) &&
+               !Isa::any(Isa::both(asked, Isa::greater(z, last)));
+    }
+
+    GNOMON_LANES_VOID void store(Intensity* to, const masks& shadowed, const floats& darkness) noexcept {
+        if constexpr (std::same_as<Intensity, float> && whole_codes)
+            Isa::store(to, Isa::keep(shadowed, Isa::fraction(darkness, channel_type::scale)));
+        else if constexpr (std::same_as<Intensity, float>)
+            Isa::store(to, Isa::keep(shadowed, Isa::lesser(darkness, Isa::repeat(1.0f))));
+        else if constexpr (sizeof(Intensity) == sizeof(storage))
+            Isa::template store_codes<unorm<Intensity>>(to, Isa::keep(shadowed, darkness));
+        else if constexpr (sizeof(Intensity) > sizeof(storage))
+            Isa::template store_codes<unorm16>(to, Isa::keep(shadowed, Isa::multiply(darkness, Isa::repeat(257.0f))));
+        else // (m + 128) / 257, rounded down: with a half more it is never near a whole number
+            Isa::template store_codes<unorm8>(
+                to, Isa::keep(shadowed, Isa::multiply(Isa::add(darkness, Isa::repeat(128.5f)), Isa::repeat(1.0f / 257.0f))));
+    }
+
+    /// False, and nothing stored, if lanes do not tell.
+    GNOMON_LANES bool one(const decision& by, const storage* texels, const Depth* depths, Intensity* to) noexcept {
+        const floats mask = codes(texels, Texel::mask_index);
+        const floats e = moved(Isa::subtract(codes(texels, Texel::depth_index), by.depth_less), by.depth_share);
+        const floats m = moved(Isa::add(mask, by.mask_more), by.mask_share);
+        const masks there = Isa::greater(mask, Isa::repeat(0.0f));
+        masks shadowed;
+        if constexpr (std::same_as<Depth, std::uint16_t>) {
+            if (!decided_sums(by, e, m, there, depths, shadowed)) return false;
+        } else if constexpr (whole_codes) {
+            if (!decided_codes(by, e, m, depths, shadowed)) return false;
+            shadowed = Isa::both(shadowed, there);
+        } else {
+            if (!decided_floats(by, e, m, there, depths, shadowed)) return false;
+        }
+        if constexpr (Texel::effects.translucency)
+            store(to, shadowed, codes(texels, Texel::contribution_index));
+        else
+            store(to, shadowed, mask);
+        return true;
+    }
+    static void slow(const rule& r, const Texel* texels, const Depth* depths, Intensity* to) noexcept {
+        for (int i = 0; i < step; ++i) to[i] = shadow_as<Intensity>(read(texels[i]), detail::as_depth(depths[i]), r);
+    }
+    GNOMON_LANES_VOID void rows(const decision& by, const Texel* texels, const Depth* depths, Intensity* to, int count) noexcept {
+        for (int i = 0; i < count; i += step)
+            if (!one(by, texels[i].stored, depths + i, to + i)) slow(*by.by_rule, texels + i, depths + i, to + i);
     }
 };
 
@@ -127,8 +216,9 @@ template <typename Isa, texel_format Texel> struct byte_decision {
         const ints first = exact(Isa::load(texels), Isa::load(depths), by);
         Isa::store(to, Isa::narrow16(first, exact(Isa::load(texels + Isa::bytes), Isa::load(depths + Isa::bytes / 2), by)));
     }
-    GNOMON_LANES_VOID void rows(const byte_decision& by, const std::uint8_t* texels, const std::uint16_t* depths, std::uint8_t* to,
+    GNOMON_LANES_VOID void rows(const byte_decision& by, const Texel* pairs, const std::uint16_t* depths, std::uint8_t* to,
                                 int count) noexcept {
+        const std::uint8_t* const texels = pairs->stored;
         const ints moved = by.nearer;
         const bool try_quick = by.one_rounding_towards_light;
         for (int i = 0; i < count; i += step)
@@ -136,41 +226,35 @@ template <typename Isa, texel_format Texel> struct byte_decision {
     }
 };
 
-/// What decides for a texel, a depth and an intensity; void where the scalar loop does.
-template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct decision_for {
-    using type = void;
-};
-template <typename Isa, texel_format Texel>
-    requires pairs_of_codes<Texel>
-struct decision_for<Isa, Texel, float, float> {
-    using type = decision<Isa, Texel>;
-};
-template <typename Isa, texel_format Texel>
-    requires(pairs_of_codes<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, unorm8>)
-struct decision_for<Isa, Texel, std::uint16_t, std::uint8_t> {
-    using type = byte_decision<Isa, Texel>;
-};
+/// What lanes decide: all of it but intensities in codes of half and float texels.
 template <texel_format Texel, typename Depth, typename Intensity>
-inline constexpr bool decided_in_lanes = !std::same_as<typename decision_for<emulated<16>, Texel, Depth, Intensity>::type, void>;
+inline constexpr bool decided_in_lanes =
+    decidable_pairs<Texel> && (Texel::channel_type::whole_codes || (Texel::channels == 2 && std::same_as<Intensity, float>));
+
+/// And what decides.
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+using decision_for =
+    std::conditional_t<byte_pairs<Texel> && std::same_as<Depth, std::uint16_t> && std::same_as<Intensity, std::uint8_t>,
+                       byte_decision<Isa, Texel>, decision<Isa, Texel, Depth, Intensity>>;
 
 /// Receivers one to one on texels. Spans of any stride; what is not side by side, and the last few, go through a register's worth of
 /// memory.
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
 void receive_row(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
                  const rule& r) noexcept {
-    using one = typename decision_for<Isa, Texel, Depth, Intensity>::type;
+    using one = decision_for<Isa, Texel, Depth, Intensity>;
     const auto decide = one::of(r);
     const int count = lesser(texels.size(), lesser(z.size(), intensity.size()));
     const bool side_by_side = texels.contiguous() && z.contiguous() && intensity.contiguous();
     const int whole = side_by_side ? count - count % one::step : 0;
-    if (whole > 0) one::rows(decide, texels[0].stored, &z[0], &intensity[0], whole);
+    if (whole > 0) one::rows(decide, &texels[0], &z[0], &intensity[0], whole);
     for (int i = whole; i < count; i += one::step) {
         const int some = lesser(one::step, count - i);
         Texel texel[static_cast<std::size_t>(one::step)]{};
         Depth depth[static_cast<std::size_t>(one::step)]{};
         Intensity made[static_cast<std::size_t>(one::step)];
         for (int k = 0; k < some; ++k) texel[k] = texels[i + k], depth[k] = z[i + k];
-        one::rows(decide, texel->stored, depth, made, one::step);
+        one::rows(decide, texel, depth, made, one::step);
         for (int k = 0; k < some; ++k) intensity[i + k] = made[k];
     }
 }
@@ -192,11 +276,22 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         ints texel, here, next;
     };
 
+    /// A few registers of receivers on their way from place to texels to decision. They rest before either, for what is stored as a
+    /// whole and loaded piece by piece, or the other way round, takes its time, and so do texels that are not in the first cache.
+    static constexpr int rest = 3 * step, ring = 8 * step;
+    struct work {
+        int at[static_cast<std::size_t>(ring)]; ///< bytes from the map to the upper left texel
+        std::uint32_t across[static_cast<std::size_t>(ring)], above[static_cast<std::size_t>(ring)],
+            below[static_cast<std::size_t>(ring)];
+        float here[static_cast<std::size_t>(ring)], next[static_cast<std::size_t>(ring)];
+    };
+
     const void* map;
     ints last_column, last_row, stride; ///< the last texel that has a next one, and bytes from row to row
     std::ptrdiff_t next_row;            ///< in bytes
+    floats right, bottom;               ///< left of and above these lie texels that have a next one
     floats e, m, z;                     ///< the bias: what pair and receiver are moved by
-    floats farthest;                    ///< float depths beyond are lit, codes beyond are behind every caster
+    bool lit_beyond;
 
     /// Biases of one rounding keep the pair below 2^24. Offsets are of 32 bits, and a row has two texels for a gather.
     [[nodiscard]] static bool serves(image_view<const Texel> map, const rule& r) noexcept {
@@ -208,7 +303,6 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     [[nodiscard]] static blended_decision of(image_view<const Texel> map, const rule& r) noexcept {
         const biased moved = apply<Texel>(r.caster, 0.0, 0.0, 0.0f);
         const int codes = codes_towards_light<Texel>(r.caster);
-        constexpr float nowhere = std::numeric_limits<float>::infinity();
         constexpr bool whole_depth = std::same_as<Depth, std::uint16_t>;
         const auto word = [](int n) { return static_cast<std::uint32_t>(n); };
         return {map.data(),
@@ -216,19 +310,29 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                 Isa::repeat32(word(map.height() - 2)),
                 Isa::repeat32(word(static_cast<int>(map.stride()))),
                 map.stride(),
+                Isa::repeat(static_cast<float>(map.width() - 1)),
+                Isa::repeat(static_cast<float>(map.height() - 1)),
                 Isa::repeat(static_cast<float>(moved.e) * whole),
                 Isa::repeat(static_cast<float>(moved.m) * whole),
                 Isa::repeat(whole_depth ? static_cast<float>(-codes) : moved.z),
-                Isa::repeat(whole_depth ? static_cast<float>(depth16::last) : (r.lit_beyond ? 1.0f : nowhere))};
+                r.lit_beyond};
     }
 
-    /// A position in 1/256 texel, p = floor(256 x + 1/2) - 128 as `sample` has it, is p/256 texels right of the centre of texel 0. A
-    /// texel's weight is 256 less its distance, and nothing from 256 on: so weights fade out by themselves at the border, where the
-    /// two texels that are read are not those beside the position. (256 x is exact, and beyond 2^30 lies off every map.)
-    GNOMON_LANES taps place(const float* position, const ints& last) noexcept {
+    /// A position in 1/256 texel right of the centre of texel 0, floor(256 x + 1/2) - 128 as `sample` has it. 256 x is exact, and what
+    /// is beyond 2^30 lies off every map.
+    GNOMON_LANES ints fixed(const floats& x) noexcept {
+        const ints doubled = Isa::floor32(Isa::multiply(x, Isa::repeat(512.0f)));
+        return Isa::template shift_right32<1>(Isa::subtract32(doubled, Isa::repeat32(255)));
+    }
+    /// Between the centres of the first and the last texel.
+    GNOMON_LANES taps within(const ints& p) noexcept {
+        const ints next = Isa::both(p, Isa::repeat32(255));
+        return {Isa::template shift_right32<8>(p), Isa::subtract32(Isa::repeat32(256), next), next};
+    }
+    /// Anywhere. A texel's weight is 256 less its distance, and nothing from 256 on: so weights fade out by themselves where the two
+    /// texels that are read are not those beside the position, because one of these is not there.
+    GNOMON_LANES taps anywhere(const ints& p, const ints& last) noexcept {
         const ints none = Isa::repeat32(0), one = Isa::repeat32(256);
-        const ints doubled = Isa::floor32(Isa::multiply(Isa::load(position), Isa::repeat(512.0f)));
-        const ints p = Isa::subtract32(Isa::template shift_right32<1>(Isa::add32(doubled, Isa::repeat32(1))), Isa::repeat32(128));
         const ints texel = Isa::greater32(Isa::lesser32(Isa::template shift_right32<8>(p), last), none);
         const ints right = Isa::subtract32(p, Isa::template shift_left32<8>(texel)); // of the texel
         const ints here = Isa::lesser32(Isa::subtract32(one, right), Isa::add32(one, right));
@@ -236,26 +340,52 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         return {texel, Isa::greater32(here, none), Isa::greater32(next, none)};
     }
 
-    GNOMON_LANES pair blend(const blended_decision& by, const float* x, const float* y) noexcept {
-        const taps across = place(x, by.last_column), down = place(y, by.last_row);
-        const ints at = Isa::add32(Isa::multiply32(down.texel, by.stride), Isa::template shift_left32<1>(across.texel));
-        const ints weights = Isa::either(across.here, Isa::template shift_left32<16>(across.next)), low = Isa::repeat32(0x00FF00FF);
-        const ints above = Isa::gather32(by.map, at),
-                   below = Isa::gather32(static_cast<const std::byte*>(by.map) + by.next_row, at);
-        const auto row = [&](const ints& codes) { return Isa::numbers(Isa::add_dot16(Isa::repeat32(0), weights, codes)); };
-        const floats here = Isa::numbers(down.here), next = Isa::numbers(down.next);
-        return {Isa::add_product(Isa::multiply(row(Isa::both(above, low)), here), row(Isa::both(below, low)), next),
-                Isa::add_product(Isa::multiply(row(Isa::template shift_right16<8>(above)), here),
-                                 row(Isa::template shift_right16<8>(below)), next)};
+    GNOMON_LANES_VOID void note(const blended_decision& by, const taps& across, const taps& down, work& w, int i) noexcept {
+        Isa::store(w.at + i, Isa::add32(Isa::multiply32(down.texel, by.stride), Isa::template shift_left32<1>(across.texel)));
+        Isa::store(w.across + i, Isa::either(across.here, Isa::template shift_left32<16>(across.next)));
+        Isa::store(w.here + i, Isa::numbers(down.here));
+        Isa::store(w.next + i, Isa::numbers(down.next));
+    }
+    /// Offsets and weights of a register of receivers.
+    GNOMON_LANES_VOID void locate(const blended_decision& by, const float* xs, const float* ys, work& w, int i) noexcept {
+        const floats x = Isa::load(xs), y = Isa::load(ys), half = Isa::repeat(0.5f);
+        const masks inside = Isa::both(Isa::both(Isa::greater(x, half), Isa::greater(by.right, x)),
+                                       Isa::both(Isa::greater(y, half), Isa::greater(by.bottom, y)));
+        if (Isa::every(inside))
+            note(by, within(fixed(x)), within(fixed(y)), w, i);
+        else
+            note(by, anywhere(fixed(x), by.last_column), anywhere(fixed(y), by.last_row), w, i);
+    }
+    /// The texels there. Plain loads: as fast as gathers, or twice as fast, depending on the processor.
+    GNOMON_LANES_VOID void fetch(const blended_decision& by, work& w, int first) noexcept {
+        const auto* const above = static_cast<const std::byte*>(by.map);
+        const auto* const below = above + by.next_row;
+        GNOMON_UNROLL(4)
+        for (int i = first; i < first + step; ++i) {
+            std::ptrdiff_t at = w.at[i];
+            GNOMON_ALONE(at);
+            std::memcpy(w.above + i, above + at, sizeof w.above[i]);
+            std::memcpy(w.below + i, below + at, sizeof w.below[i]);
+        }
+    }
+    GNOMON_LANES pair blend(const work& w, int i) noexcept {
+        const ints across = Isa::load(w.across + i), above = Isa::load(w.above + i), below = Isa::load(w.below + i);
+        const floats here = Isa::load(w.here + i), next = Isa::load(w.next + i);
+        const ints low = Isa::repeat32(0x00FF00FF), none = Isa::repeat32(0);
+        const floats e = Isa::numbers(Isa::add_dot16(none, across, Isa::both(above, low)));
+        const floats m = Isa::numbers(Isa::add_dot16(none, across, Isa::template shift_right16<8>(above)));
+        const floats e_next = Isa::numbers(Isa::add_dot16(none, across, Isa::both(below, low)));
+        const floats m_next = Isa::numbers(Isa::add_dot16(none, across, Isa::template shift_right16<8>(below)));
+        return {Isa::add_product(Isa::multiply(e, here), e_next, next), Isa::add_product(Isa::multiply(m, here), m_next, next)};
     }
 
-    /// m z + (e-m) > 0, as above.
-    GNOMON_LANES bool decided(const blended_decision& by, const pair& moved, const floats& mask, const float* depths,
+    /// m z + (e-m) > 0, as above; where there is no mask there is no intensity either.
+    GNOMON_LANES bool decided(const blended_decision& by, const pair& moved, const floats&, const float* depths,
                               masks& shadowed) noexcept {
         const floats zero = Isa::repeat(0.0f), depth = Isa::load(depths);
         shadowed = Isa::positive(moved.m, Isa::add(depth, by.z), Isa::subtract(moved.e, moved.m));
-        shadowed = Isa::both(Isa::both(shadowed, Isa::greater(depth, zero)),
-                             Isa::both(Isa::greater(mask, zero), Isa::not_greater(depth, by.farthest)));
+        shadowed = Isa::both(shadowed, Isa::greater(depth, zero));
+        if (by.lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
         return true;
     }
     /// The same times 65535, where sums of 2^40 are rounded three times, each time by 2^16 at most: within 2^18 of nothing they say
@@ -268,7 +398,8 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         const masks there = Isa::both(Isa::greater(mask, zero), Isa::both(Isa::greater(code, zero), Isa::greater(depth, zero)));
         shadowed = Isa::both(there, Isa::greater(sum, doubt));
         const masks near_nothing = Isa::both(Isa::not_greater(sum, doubt), Isa::not_greater(Isa::repeat(-0x1p18f), sum));
-        return !Isa::any(Isa::both(there, near_nothing)) && !Isa::any(Isa::both(there, Isa::greater(depth, by.farthest)));
+        return !Isa::any(Isa::both(there, near_nothing)) &&
+               !Isa::any(Isa::both(there, Isa::greater(depth, Isa::repeat(static_cast<float>(depth16::last)))));
     }
 
     GNOMON_LANES_VOID void store(float* to, const masks& shadowed, const floats& mask) noexcept {
@@ -279,21 +410,29 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         Isa::template store_codes<unorm8>(to, Isa::keep(shadowed, code));
     }
 
-    /// False, and nothing stored, if float does not tell.
-    GNOMON_LANES bool one(const blended_decision& by, const float* x, const float* y, const Depth* z, Intensity* to) noexcept {
-        const pair blended = blend(by, x, y);
-        masks shadowed;
-        if (!decided(by, {Isa::add(blended.e, by.e), Isa::add(blended.m, by.m)}, blended.m, z, shadowed)) return false;
-        store(to, shadowed, blended.m);
-        return true;
+    /// \pre count is a multiple of `step`
+    static void some(const blended_decision& by, image_view<const Texel> map, const float* x, const float* y, const Depth* z,
+                     Intensity* to, int count, const rule& r) noexcept {
+        alignas(64) work w;
+        for (int first = 0; first < count + 2 * rest; first += step) {
+            if (first < count) locate(by, x + first, y + first, w, first % ring);
+            if (first >= rest && first < count + rest) fetch(by, w, (first - rest) % ring);
+            const int i = first - 2 * rest;
+            if (i < 0) continue;
+            const pair blended = blend(w, i % ring);
+            masks shadowed;
+            if (decided(by, {Isa::add(blended.e, by.e), Isa::add(blended.m, by.m)}, blended.m, z + i, shadowed))
+                store(to + i, shadowed, blended.m);
+            else // float does not tell
+                for (int k = i; k < i + step; ++k) to[k] = shadow_as<Intensity>(sample(map, x[k], y[k]), detail::as_depth(z[k]), r);
+        }
     }
 };
 
 /// What lanes blend and decide.
 template <texel_format Texel, typename Depth, typename Intensity>
 inline constexpr bool blended_in_lanes =
-    pairs_of_codes<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, unorm8> &&
-    (std::same_as<Intensity, float> || std::same_as<Intensity, std::uint8_t>);
+    byte_pairs<Texel> && (std::same_as<Intensity, float> || std::same_as<Intensity, std::uint8_t>);
 
 /// Receivers anywhere, spans of any stride. False, and nothing done, where the lanes do not serve.
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
@@ -306,21 +445,15 @@ bool receive_points(image_view<const Texel> map, strided_span<const float> x, st
     const int count = lesser(lesser(x.size(), y.size()), lesser(z.size(), intensity.size()));
     const bool side_by_side = x.contiguous() && y.contiguous() && z.contiguous() && intensity.contiguous();
     const int together = side_by_side ? count - count % step : 0;
-    const auto exactly = [&](int i, int some) {
-        for (int k = i; k < i + some; ++k) intensity[k] = shadow_as<Intensity>(sample(map, x[k], y[k]), detail::as_depth(z[k]), r);
-    };
-    for (int i = 0; i < together; i += step)
-        if (!blended::one(by, &x[i], &y[i], &z[i], &intensity[i])) exactly(i, step);
+    if (together > 0) blended::some(by, map, &x[0], &y[0], &z[0], &intensity[0], together, r);
     for (int i = together; i < count; i += step) {
-        const int some = lesser(step, count - i);
+        const int here = lesser(step, count - i);
         float px[static_cast<std::size_t>(step)]{}, py[static_cast<std::size_t>(step)]{};
         Depth depth[static_cast<std::size_t>(step)]{};
         Intensity made[static_cast<std::size_t>(step)];
-        for (int k = 0; k < some; ++k) px[k] = x[i + k], py[k] = y[i + k], depth[k] = z[i + k];
-        if (blended::one(by, px, py, depth, made))
-            for (int k = 0; k < some; ++k) intensity[i + k] = made[k];
-        else
-            exactly(i, some);
+        for (int k = 0; k < here; ++k) px[k] = x[i + k], py[k] = y[i + k], depth[k] = z[i + k];
+        blended::some(by, map, px, py, depth, made, step, r);
+        for (int k = 0; k < here; ++k) intensity[i + k] = made[k];
     }
     return true;
 }

@@ -71,22 +71,36 @@ struct biased {
     float z;
 };
 
+/// What a bias does to a pair and to a float depth: ((e - depth_less) depth_share, (m + mask_more) mask_share, z - nearer).
+template <texel_format Texel> struct bias_steps {
+    using real = std::conditional_t<Texel::channel_type::whole_codes, double, float>;
+    real depth_less, depth_share;
+    real mask_more, mask_share;
+    float nearer;
+
+    [[nodiscard]] static constexpr bias_steps of(const bias& b) noexcept {
+        constexpr rounding_error depth = Texel::depth_rounding, mask = Texel::mask_rounding;
+        constexpr float own =
+            Texel::channel_type::whole_codes ? 0.0f : 0x1p-22f; // two operations, the conversion of a blended sample
+        const float towards = b.towards == bias_towards::light ? 1.0f : (b.towards == bias_towards::shadow ? -1.0f : 0.0f);
+        const float k = towards * static_cast<float>(b.roundings);
+        const float rounded = towards > 0.0f ? caster_depth_error<Texel>.nearer : caster_depth_error<Texel>.farther;
+        const float caster = b.caster_is_code ? 0.0f : rounded;
+        return {static_cast<real>(k * depth.absolute), static_cast<real>(1.0f - (k * depth.relative + towards * own)),
+                static_cast<real>(k * mask.absolute), static_cast<real>(1.0f + (k * mask.relative + towards * own)),
+                towards * (b.depth + caster)};
+    }
+};
+
 /// Applies a bias to codes. Exact for unorm. For half and float in single precision, one operation at a time, so that any ISA can
 /// give the same bits; what that rounds is part of the bias.
 template <texel_format Texel> [[nodiscard]] constexpr biased apply(const bias& b, double e, double m, float z) noexcept {
-    using channel_type = typename Texel::channel_type;
-    using real = std::conditional_t<channel_type::whole_codes, double, float>;
-    constexpr rounding_error depth = Texel::depth_rounding, mask = Texel::mask_rounding;
-    constexpr float own = channel_type::whole_codes ? 0.0f : 0x1p-22f; // two operations and the conversion of a blended sample
-    const float towards = b.towards == bias_towards::light ? 1.0f : (b.towards == bias_towards::shadow ? -1.0f : 0.0f);
-    const float k = towards * static_cast<float>(b.roundings);
-    const real lower = (static_cast<real>(e) - static_cast<real>(k * depth.absolute)) *
-                       static_cast<real>(1.0f - (k * depth.relative + towards * own));
-    const real upper = (static_cast<real>(m) + static_cast<real>(k * mask.absolute)) *
-                       static_cast<real>(1.0f + (k * mask.relative + towards * own));
-    const float rounded = towards > 0.0f ? caster_depth_error<Texel>.nearer : caster_depth_error<Texel>.farther;
-    const float caster = b.caster_is_code ? 0.0f : rounded;
-    return {static_cast<double>(lower), static_cast<double>(upper), z - towards * (b.depth + caster)};
+    using steps = bias_steps<Texel>;
+    using real = typename steps::real;
+    const steps by = steps::of(b);
+    const real lower = (static_cast<real>(e) - by.depth_less) * by.depth_share;
+    const real upper = (static_cast<real>(m) + by.mask_more) * by.mask_share;
+    return {static_cast<double>(lower), static_cast<double>(upper), z - by.nearer};
 }
 
 /// How many codes nearer to the light a bias moves a depth16; fewer than none are away from it. It makes up for the caster's own

@@ -127,10 +127,6 @@ struct avx2 {
     GNOMON_LANES ints lesser32(ints a, ints b) noexcept { return _mm256_min_epi32(a, b); }
     GNOMON_LANES ints greater32(ints a, ints b) noexcept { return _mm256_max_epi32(a, b); }
     template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return _mm256_slli_epi32(a, Bits); }
-    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
-        const ints none = _mm256_setzero_si256(), all = _mm256_cmpeq_epi32(none, none);
-        return _mm256_mask_i32gather_epi32(none, static_cast<const int*>(from), offsets, all, 1);
-    }
     GNOMON_LANES ints floor32(floats a) noexcept { return _mm256_cvttps_epi32(_mm256_floor_ps(a)); }
 
     GNOMON_LANES floats load(const float* from) noexcept { return _mm256_loadu_ps(from); }
@@ -181,6 +177,9 @@ struct avx2 {
 
     GNOMON_LANES floats numbers(ints a) noexcept { return _mm256_cvtepi32_ps(a); }
     GNOMON_LANES bool any(masks a) noexcept { return _mm256_movemask_ps(a) != 0; }
+    GNOMON_LANES floats lesser(floats a, floats b) noexcept { return _mm256_min_ps(b, a); }
+    GNOMON_LANES_VOID void settle(floats& a) noexcept { GNOMON_SETTLE(a); }
+    GNOMON_LANES bool every(masks a) noexcept { return _mm256_movemask_ps(a) == 255; }
 
     GNOMON_LANES doubles load(const double* from) noexcept { return _mm256_loadu_pd(from); }
     GNOMON_LANES_VOID void store(double* to, doubles a) noexcept { _mm256_storeu_pd(to, a); }

@@ -121,9 +121,6 @@ struct avx512 {
     GNOMON_LANES ints lesser32(ints a, ints b) noexcept { return _mm512_maskz_min_epi32(all, a, b); }
     GNOMON_LANES ints greater32(ints a, ints b) noexcept { return _mm512_maskz_max_epi32(all, a, b); }
     template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return _mm512_maskz_slli_epi32(all, a, Bits); }
-    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
-        return _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), all, offsets, from, 1);
-    }
     GNOMON_LANES ints floor32(floats a) noexcept {
         return _mm512_maskz_cvt_roundps_epi32(all, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
     }
@@ -177,6 +174,9 @@ struct avx512 {
 
     GNOMON_LANES floats numbers(ints a) noexcept { return number(a); }
     GNOMON_LANES bool any(masks a) noexcept { return a != 0; }
+    GNOMON_LANES floats lesser(floats a, floats b) noexcept { return _mm512_maskz_min_ps(all, b, a); }
+    GNOMON_LANES_VOID void settle(floats& a) noexcept { GNOMON_SETTLE(a); }
+    GNOMON_LANES bool every(masks a) noexcept { return a == 0xFFFF; }
 
     GNOMON_LANES doubles load(const double* from) noexcept { return _mm512_loadu_pd(from); }
     GNOMON_LANES_VOID void store(double* to, doubles a) noexcept { _mm512_storeu_pd(to, a); }

@@ -203,18 +203,13 @@ template <int Bytes> struct emulated {
         return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) * at<std::uint32_t>(b, i); });
     }
     [[nodiscard]] static ints lesser32(ints a, ints b) noexcept {
-        return each<std::int32_t>([&](int i) { return lesser(at<std::int32_t>(a, i), at<std::int32_t>(b, i)); });
+        return each<std::int32_t>([&](int i) { return gnomon::lesser(at<std::int32_t>(a, i), at<std::int32_t>(b, i)); });
     }
     [[nodiscard]] static ints greater32(ints a, ints b) noexcept {
         return each<std::int32_t>([&](int i) { return gnomon::greater(at<std::int32_t>(a, i), at<std::int32_t>(b, i)); });
     }
     template <int Bits> [[nodiscard]] static ints shift_left32(ints a) noexcept {
         return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, i) << Bits; });
-    }
-    /// 32 bits from each of so many bytes behind `from`, at any alignment.
-    [[nodiscard]] static ints gather32(const void* from, ints offsets) noexcept {
-        return each<std::uint32_t>(
-            [&](int i) { return copied<std::uint32_t>(static_cast<const std::byte*>(from) + at<std::int32_t>(offsets, i)); });
     }
     /// The largest whole number of 32 bits that is not greater; -2^31 of what is beyond them, and of NaN.
     [[nodiscard]] static ints floor32(floats a) noexcept {
@@ -284,6 +279,19 @@ template <int Bytes> struct emulated {
     /// Whole numbers of 32 bits as floats, rounded to nearest.
     [[nodiscard]] static floats numbers(ints a) noexcept {
         return of_floats<floats>([&](int i) { return static_cast<float>(at<std::int32_t>(a, i)); });
+    }
+    /// b where it is less, else a.
+    [[nodiscard]] static floats lesser(floats a, floats b) noexcept {
+        return of_floats<floats>([&](int i) { return gnomon::lesser(a.lane[i], b.lane[i]); });
+    }
+    /// Nothing. Where a compiler would fuse a product with what is added to it, it is rounded first.
+    static void settle(floats& a) noexcept {
+        for (int i = 0; i < float_lanes; ++i) GNOMON_SETTLE(a.lane[i]);
+    }
+    [[nodiscard]] static bool every(masks a) noexcept {
+        bool each = true;
+        for (int i = 0; i < float_lanes; ++i) each &= a.lane[i];
+        return each;
     }
     [[nodiscard]] static bool any(masks a) noexcept {
         bool one = false;

@@ -80,7 +80,6 @@ concept simd_isa =
         { Isa::greater32(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::template shift_left32<8>(i) } -> std::same_as<typename Isa::ints>;
         { Isa::template shift_right32<8>(i) } -> std::same_as<typename Isa::ints>;
-        { Isa::gather32(memory, i) } -> std::same_as<typename Isa::ints>;
         { Isa::floor32(f) } -> std::same_as<typename Isa::ints>;
         { Isa::load(static_cast<const float*>(numbers)) } -> std::same_as<typename Isa::floats>;
         { Isa::store(numbers, f) };
@@ -99,6 +98,9 @@ concept simd_isa =
         { Isa::template codes_of<unorm8, 2>(codes, 0) } -> std::same_as<typename Isa::floats>;
         { Isa::numbers(i) } -> std::same_as<typename Isa::floats>;
         { Isa::any(m) } -> std::same_as<bool>;
+        { Isa::lesser(f, f) } -> std::same_as<typename Isa::floats>;
+        { Isa::settle(f) };
+        { Isa::every(m) } -> std::same_as<bool>;
         { Isa::template store_codes<unorm8>(codes, f) };
         { Isa::load(static_cast<const double*>(wides)) } -> std::same_as<typename Isa::doubles>;
         { Isa::store(wides, d) };

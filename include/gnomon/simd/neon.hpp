@@ -120,12 +120,6 @@ struct neon {
     GNOMON_LANES ints lesser32(ints a, ints b) noexcept { return bytes_of(vminq_s32(signed32(a), signed32(b))); }
     GNOMON_LANES ints greater32(ints a, ints b) noexcept { return bytes_of(vmaxq_s32(signed32(a), signed32(b))); }
     template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return bytes_of(vshlq_n_u32(whole(a), Bits)); }
-    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
-        std::int32_t offset[4], found[4];
-        store(offset, offsets);
-        for (int i = 0; i < 4; ++i) std::memcpy(&found[i], static_cast<const char*>(from) + offset[i], sizeof found[i]);
-        return load(found);
-    }
     GNOMON_LANES ints floor32(floats a) noexcept { // the conversion knows other results of NaN and of what is too much
         return bytes_of(vbslq_s32(vcltq_f32(a, vdupq_n_f32(0x1p31f)), vcvtmq_s32_f32(a), vdupq_n_s32(-0x7FFFFFFF - 1)));
     }
@@ -179,6 +173,9 @@ struct neon {
     }
     GNOMON_LANES floats numbers(ints a) noexcept { return vcvtq_f32_s32(signed32(a)); }
     GNOMON_LANES bool any(masks a) noexcept { return vmaxvq_u32(a) != 0; }
+    GNOMON_LANES floats lesser(floats a, floats b) noexcept { return vbslq_f32(vcltq_f32(b, a), b, a); }
+    GNOMON_LANES_VOID void settle(floats& a) noexcept { GNOMON_SETTLE(a); }
+    GNOMON_LANES bool every(masks a) noexcept { return vminvq_u32(a) != 0; }
 
     GNOMON_LANES doubles load(const double* from) noexcept { return vld1q_f64(from); }
     GNOMON_LANES_VOID void store(double* to, doubles a) noexcept { vst1q_f64(to, a); }

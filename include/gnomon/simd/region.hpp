@@ -34,6 +34,14 @@
 #define GNOMON_UNROLL(times)
 #endif
 
+// Keeps a number in a register of its own: loops of such loads and stores are not made into gathers, or into vectors put together
+// number by number.
+#if defined(__GNUC__)
+#define GNOMON_ALONE(a) asm("" : "+r"(a))
+#else
+#define GNOMON_ALONE(a) static_cast<void>(a)
+#endif
+
 // Keeps a sum where it stands, see emulated::settle; and a product from being fused with what it is added to.
 #if defined(__GNUC__) && defined(__x86_64__)
 #define GNOMON_SETTLE(a) asm("" : "+v"(a))

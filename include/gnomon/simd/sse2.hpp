@@ -130,12 +130,6 @@ struct sse2 {
     GNOMON_LANES ints lesser32(ints a, ints b) noexcept { return chosen(_mm_cmpgt_epi32(a, b), b, a); }
     GNOMON_LANES ints greater32(ints a, ints b) noexcept { return chosen(_mm_cmpgt_epi32(a, b), a, b); }
     template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return _mm_slli_epi32(a, Bits); }
-    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
-        int offset[4], found[4];
-        store(offset, offsets);
-        for (int i = 0; i < 4; ++i) std::memcpy(&found[i], static_cast<const char*>(from) + offset[i], sizeof found[i]);
-        return load(found);
-    }
     GNOMON_LANES ints floor32(floats a) noexcept { // of NaN and what is too little the maximum is -2^31, which stays as it is
         const floats bounded = _mm_max_ps(a, _mm_set1_ps(-0x1p31f));
         const ints whole = _mm_cvttps_epi32(bounded);
@@ -188,6 +182,9 @@ struct sse2 {
 
     GNOMON_LANES floats numbers(ints a) noexcept { return _mm_cvtepi32_ps(a); }
     GNOMON_LANES bool any(masks a) noexcept { return _mm_movemask_ps(a) != 0; }
+    GNOMON_LANES floats lesser(floats a, floats b) noexcept { return _mm_min_ps(b, a); }
+    GNOMON_LANES_VOID void settle(floats& a) noexcept { GNOMON_SETTLE(a); }
+    GNOMON_LANES bool every(masks a) noexcept { return _mm_movemask_ps(a) == 15; }
 
     GNOMON_LANES doubles load(const double* from) noexcept { return _mm_loadu_pd(from); }
     GNOMON_LANES_VOID void store(double* to, doubles a) noexcept { _mm_storeu_pd(to, a); }

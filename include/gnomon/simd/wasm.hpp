@@ -117,12 +117,6 @@ struct wasm128 {
     GNOMON_LANES ints lesser32(ints a, ints b) noexcept { return wasm_i32x4_min(a, b); }
     GNOMON_LANES ints greater32(ints a, ints b) noexcept { return wasm_i32x4_max(a, b); }
     template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return wasm_i32x4_shl(a, Bits); }
-    GNOMON_LANES ints gather32(const void* from, ints offsets) noexcept {
-        std::int32_t offset[4], found[4];
-        store(offset, offsets);
-        for (int i = 0; i < 4; ++i) std::memcpy(&found[i], static_cast<const char*>(from) + offset[i], sizeof found[i]);
-        return load(found);
-    }
     GNOMON_LANES ints floor32(floats a) noexcept { // the conversion knows other results of NaN and of what is too much
         const ints whole = wasm_i32x4_trunc_sat_f32x4(wasm_f32x4_floor(bits_of(a)));
         return wasm_v128_bitselect(whole, repeat32(0x80000000u), wasm_f32x4_lt(bits_of(a), bits_of(repeat(0x1p31f))));
@@ -170,6 +164,9 @@ struct wasm128 {
     }
     GNOMON_LANES floats numbers(ints a) noexcept { return floats_of(wasm_f32x4_convert_i32x4(a)); }
     GNOMON_LANES bool any(masks a) noexcept { return wasm_v128_any_true(bits_of(a)); }
+    GNOMON_LANES floats lesser(floats a, floats b) noexcept { return floats_of(wasm_f32x4_pmin(bits_of(a), bits_of(b))); }
+    GNOMON_LANES_VOID void settle(floats&) noexcept {}
+    GNOMON_LANES bool every(masks a) noexcept { return wasm_i32x4_all_true(bits_of(a)); }
 
     GNOMON_LANES doubles load(const double* from) noexcept { return doubles_of(wasm_v128_load(from)); }
     GNOMON_LANES_VOID void store(double* to, doubles a) noexcept { wasm_v128_store(to, bits_of(a)); }
