@@ -23,7 +23,7 @@ template <typename Isa> struct triangle_setup {
     /// Triangles up to so many columns and rows are cut into runs in lanes; larger ones, as those that planes cut, by detail::scan.
     static constexpr double most = 4096.0;
     /// Up to so many rows, of one piece each, they are cut in lanes of triangles.
-    static constexpr int few_rows = 8;
+    static constexpr int few_rows = 32;
 
     /// A vector or a point of as many triangles as there are lanes.
     struct vectors {

@@ -118,7 +118,7 @@ light_footprint rasterize_rows(const triangle_mesh& mesh, const light_frame& lig
 /// multiply-adds are not fused, as geometry/ asks for everywhere. `sink` is called texel by texel, so for speed it has to be light.
 ///
 /// Triangles are set up, a lane for each, and cut into runs of texels; depths are computed, a lane for each column. What planes cut, is
-/// seen edge-on, or is longer than 4096 texels is set up by the scalar code. Nothing is allocated; 5 kB of the stack are used.
+/// seen edge-on, or is longer than 4096 texels is set up by the scalar code. Nothing is allocated; 12 kB of the stack are used.
 template <typename Isa, typename Sink, marked_texels Where = touches_everything>
     requires requires(Sink& sink, int i, float depth) { sink(i, i, depth); }
 light_footprint rasterize(simd<Isa>, const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side,
