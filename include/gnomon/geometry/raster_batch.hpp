@@ -22,8 +22,8 @@ template <typename Isa> struct triangle_setup {
     static_assert(lanes <= 32, "gnomon: the rasteriser keeps a bit for each lane in 32: lanes of up to 256 bytes fit");
     /// Triangles up to so many columns and rows are cut into runs in lanes; larger ones, as those that planes cut, by detail::scan.
     static constexpr double most = 4096.0;
-    /// Up to so many rows, they are cut in lanes of triangles.
-    static constexpr int few_rows = 8;
+    /// Up to so many rows, of one piece each, they are cut in lanes of triangles.
+    static constexpr int few_rows = 32;
 
     /// A vector or a point of as many triangles as there are lanes.
     struct vectors {
@@ -39,7 +39,7 @@ template <typename Isa> struct triangle_setup {
         std::uint32_t here = 0;  ///< which lanes hold a triangle of the mesh
         std::uint32_t drawn = 0; ///< which of them hold a centre of the target in the box around them, or may do
         std::uint32_t plain = 0; ///< which are cut by no plane, not too large, and not seen edge-on
-        std::uint32_t few = 0;   ///< which have few rows
+        std::uint32_t few = 0;   ///< which have few rows, of one piece each
         numbers x0, y0, x1, y1;  ///< the centres in the box around them, of the target
         numbers edge[3], per_row[3], per_edge[3], lower_limit[3], upper_limit[3];
         numbers x, y, a, b, c, nearest, farthest, area;
@@ -170,7 +170,8 @@ template <typename Isa> struct triangle_setup {
     static void set_up_rows(batch& b) noexcept {
         const doubles y0 = Isa::load(b.y0.lane), height = Isa::subtract(Isa::load(b.y1.lane), y0);
         const doubles width = Isa::subtract(Isa::load(b.x1.lane), Isa::load(b.x0.lane));
-        b.few = Isa::greater_bits(Isa::repeat(few_rows + 0.5), height);
+        b.few =
+            Isa::greater_bits(Isa::repeat(few_rows + 0.5), height) & Isa::greater_bits(Isa::repeat(detail::row_piece + 0.5), width);
         const std::uint32_t rows_of = b.few & b.plain & b.drawn;
         for (int row = 0; row < few_rows && (Isa::greater_bits(height, whole_number(row)) & rows_of) != 0; ++row) {
             doubles begin = Isa::repeat(0.0), end = width;

@@ -84,9 +84,11 @@ template <typename Isa> struct rasterizer {
         const depths d = depths::of(triangles::depth_of(b, j, k), Row::saturated);
         detail::touched_texels here = touched;
         float z[static_cast<std::size_t>(detail::row_piece + lanes)];
-        for (int i = 0; i < around.height(); ++i)
-            draw_row<Row>(j, d, Isa::repeat(b.on_row[i].lane[k]), around.y0 + i, around.x0 + static_cast<int>(b.begin[i].lane[k]),
-                          around.x0 + static_cast<int>(b.end[i].lane[k]), z, here);
+        for (int i = 0; i < around.height(); ++i) {
+            const int begin = static_cast<int>(b.begin[i].lane[k]), end = static_cast<int>(b.end[i].lane[k]);
+            if (begin >= end) continue;
+            draw_piece<Row>(j, d, Isa::repeat(b.on_row[i].lane[k]), around.y0 + i, around.x0 + begin, around.x0 + end, z, here);
+        }
         touched = here;
     }
 

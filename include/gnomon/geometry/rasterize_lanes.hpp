@@ -49,6 +49,17 @@ template <> struct raster_on<avx512> {
 };
 #endif
 
+/// The kinds of rows that triangles become, by their lanes.
+struct calls {
+    template <typename Lanes> using row = typename raster_on<Lanes>::called;
+};
+template <typename Texel> struct casts {
+    template <typename Lanes> using row = typename raster_on<Lanes>::template cast<Texel>;
+};
+template <typename Texel> struct bounds {
+    template <typename Lanes> using row = typename raster_on<Lanes>::template bound<Texel>;
+};
+
 /// f.template operator()<Lanes>() for the lanes that Isa names; for SSE2 if the processor has no such lanes.
 template <typename Isa, typename F> auto for_lanes(F&& f) noexcept {
     if constexpr (std::same_as<Isa, best_isa>) {
@@ -72,10 +83,10 @@ inline void draw_cut(const raster_job& job, int first, touched_texels& touched) 
                   [&](const triangle_depth& depth, int y, int x0, int x1) { job.run(job, depth, y, x0, x1, touched); });
 }
 
-/// `of` says which rows: of.template operator()<Lanes>() is one of the kinds of raster_on<Lanes>. They read what `rows` points to.
-template <typename Isa, typename Where, typename Of>
+/// `Kind` of rows find in `rows` what they need; `row` is what they call, if they do.
+template <typename Isa, typename Kind, typename Where>
 light_footprint rasterize_rows(const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side,
-                               const Where& where, void* rows, void (*row)(void*, int, int, int, const float*), const Of& of) {
+                               const Where& where, void* rows, void (*row)(void*, int, int, int, const float*) = nullptr) {
     target = clip(target, light.size());
     if (target.empty()) return {};
     const glm::dmat4 to_map = light.matrix() * mesh.model;
@@ -97,9 +108,9 @@ light_footprint rasterize_rows(const triangle_mesh& mesh, const light_frame& lig
                    .run = nullptr};
     if constexpr (!std::same_as<Where, touches_everything>)
         job.touches = [](const void* marks, texel_rect r) { return touches(*static_cast<const Where*>(marks), r); };
-    const auto draw = for_lanes<Isa>([&]<typename Lanes>() {
+    const auto draw = for_lanes<Isa>([&job]<typename Lanes>() {
         using triangles = typename raster_on<Lanes>::triangles;
-        using row_kind = typename decltype(of.template operator()<Lanes>())::type;
+        using row_kind = typename Kind::template row<Lanes>;
         job.run = triangles::template draw_run<row_kind>;
         return &triangles::template run<row_kind>;
     });
@@ -108,7 +119,11 @@ light_footprint rasterize_rows(const triangle_mesh& mesh, const light_frame& lig
 
 } // namespace detail
 
-/// rasterize of geometry/rasterize.hpp in lanes: the same texels at the same depths in the same order, bit for bit.
+/// rasterize of geometry/rasterize.hpp in lanes: the same texels at the same depths in the same order, bit for bit where
+/// multiply-adds are not fused, as geometry/ asks for everywhere. `sink` is called texel by texel, so for speed it has to be light.
+///
+/// Triangles are set up, a lane for each, and cut into runs of texels; depths are computed, a lane for each column. What planes cut, is
+/// seen edge-on, or is longer than 4096 texels is set up by the scalar code. Nothing is allocated; 12 kB of the stack are used.
 template <typename Isa, typename Sink, marked_texels Where = touches_everything>
     requires requires(Sink& sink, int i, float depth) { sink(i, i, depth); }
 light_footprint rasterize(simd<Isa>, const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side,
@@ -119,43 +134,43 @@ light_footprint rasterize(simd<Isa>, const triangle_mesh& mesh, const light_fram
             for (int x = x0; x < x1; ++x) (**static_cast<sink_type**>(object))(x, y, z[x - x0]);
         };
         sink_type* object = &sink;
-        return detail::rasterize_rows<Isa>(mesh, light, target, side, where, &object, row, []<typename Lanes>() {
-            return std::type_identity<typename detail::raster_on<Lanes>::called>{};
-        });
+        return detail::rasterize_rows<Isa, detail::calls>(mesh, light, target, side, where, &object, row);
     } else {
         return rasterize(mesh, light, target, side, sink, where);
     }
 }
 
+namespace detail {
+/// Casts copies of `caster` at the depths of the triangles.
+template <typename Isa, texel_format Texel>
+light_footprint cast_copies(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light, faces side,
+                            Texel caster) {
+    if constexpr (cast_in_lanes<Isa, Texel>) {
+        texel_target<Texel> target{texels, caster};
+        return rasterize_rows<Isa, casts<Texel>>(mesh, light, whole(texels.size()), side, touches_everything{}, &target);
+    } else {
+        const auto cast = [&](int x, int y, float s) {
+            caster.stored[Texel::depth_index] = Texel::caster(s).stored[Texel::depth_index];
+            texels(x, y).cast(caster);
+        };
+        return rasterize(simd<Isa>{}, mesh, light, whole(texels.size()), side, cast);
+    }
+}
+} // namespace detail
+
 /// cast_triangles of geometry/rasterize.hpp in lanes, bit for bit: cast_triangles(simd<>{}, texels, mesh, light).
 template <typename Isa, texel_format Texel>
-light_footprint cast_triangles(simd<Isa> run, image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
+light_footprint cast_triangles(simd<Isa>, image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
                                faces side = faces::both) {
-    if constexpr (detail::cast_in_lanes<Isa, Texel>) {
-        detail::texel_target<Texel> target{texels, Texel::caster(0.0f)};
-        return detail::rasterize_rows<Isa>(
-            mesh, light, whole(texels.size()), side, touches_everything{}, &target, nullptr,
-            []<typename Lanes>() { return std::type_identity<typename detail::raster_on<Lanes>::template cast<Texel>>{}; });
-    } else {
-        return rasterize(run, mesh, light, whole(texels.size()), side,
-                         [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s)); });
-    }
+    return detail::cast_copies<Isa>(texels, mesh, light, side, Texel::caster(0.0f));
 }
 
 /// The same for casters that let 1 - `opacity` of the light through.
 template <typename Isa, texel_format Texel>
     requires(Texel::effects.translucency)
-light_footprint cast_triangles(simd<Isa> run, image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
+light_footprint cast_triangles(simd<Isa>, image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
                                float opacity, faces side = faces::both) {
-    if constexpr (detail::cast_in_lanes<Isa, Texel>) {
-        detail::texel_target<Texel> target{texels, Texel::caster(0.0f, opacity)};
-        return detail::rasterize_rows<Isa>(
-            mesh, light, whole(texels.size()), side, touches_everything{}, &target, nullptr,
-            []<typename Lanes>() { return std::type_identity<typename detail::raster_on<Lanes>::template cast<Texel>>{}; });
-    } else {
-        return rasterize(run, mesh, light, whole(texels.size()), side,
-                         [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s, opacity)); });
-    }
+    return detail::cast_copies<Isa>(texels, mesh, light, side, Texel::caster(0.0f, opacity));
 }
 
 /// bound_triangles of geometry/rasterize.hpp in lanes, bit for bit.
@@ -165,9 +180,7 @@ light_footprint bound_triangles(simd<Isa> run, image_view<Texel> texels, const t
                                 faces side = faces::both, const Where& where = {}, texel_rect region = everywhere) {
     if constexpr (detail::cast_in_lanes<Isa, Texel>) {
         detail::texel_target<Texel> target{texels, Texel::clear()};
-        return detail::rasterize_rows<Isa>(
-            mesh, light, clip(region, texels.size()), side, where, &target, nullptr,
-            []<typename Lanes>() { return std::type_identity<typename detail::raster_on<Lanes>::template bound<Texel>>{}; });
+        return detail::rasterize_rows<Isa, detail::bounds<Texel>>(mesh, light, clip(region, texels.size()), side, where, &target);
     } else {
         const auto bound = [&](int x, int y, float z) {
             if (z >= 0.0f) texels(x, y).bound(z);
