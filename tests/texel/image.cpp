@@ -59,6 +59,7 @@ constexpr int sum_of_three() {
 }
 static_assert(sum_of_three() == 321);
 static_assert(strided_span<int>().size() == 0 && strided_span<int>(nullptr, -3).size() == 0);
+static_assert(strided_span<int>(nullptr, 0).size() == 0 && strided_span<int>(nullptr, 1).size() == 1);
 
 } // namespace
 
@@ -92,7 +93,8 @@ TEST_CASE("an image with a side that is zero or negative has no texels there") {
     CHECK(image<int>().size() == extent{});
     CHECK(image<int>().view().part({-5, -5, 5, 5}).size() == extent{});
     image<int>({-3, 4}).view().fill({-9, -9, 9, 9}, 1);
-    CHECK(image_view<int>(nullptr, {-3, 4}).size().empty());
+    CHECK(image_view<int>(nullptr, {-3, 4}).size() == extent{});
+    CHECK(image_view<int>(nullptr, {4, -3}).size() == extent{});
     CHECK(image_view<int>().size().empty());
     CHECK((image_view<int>().data() == nullptr && image_view<int>().stride() == 0));
 }
@@ -174,6 +176,25 @@ TEST_CASE("a view without a stride takes rows that follow each other") {
     CHECK(view(0, 2) == 8);
     CHECK(view.row_span(1).size() == 4);
     CHECK(view.row_span(1)[2] == 6);
+}
+
+TEST_CASE("a view of memory with a side that is zero or negative has no texels there") {
+    int memory[4]{};
+    CHECK(image_view<int>(memory, {0, 4}).size() == extent{0, 4});
+    CHECK(image_view<int>(memory, {-3, 4}).size() == extent{0, 4});
+    CHECK(image_view<int>(memory, {4, 0}).size() == extent{4, 0});
+    CHECK(image_view<int>(memory, {4, -3}).size() == extent{4, 0});
+}
+
+TEST_CASE("a span or a view of const sees what it was made from") {
+    image<pixel> made = numbered({7, 4});
+    const strided_span<pixel> column(made.view().data() + 5, 4, made.view().stride());
+    const strided_span<const pixel> seen = column;
+    CHECK(seen.size() == 4);
+    CHECK(seen[3] == pixel{5, 3});
+    const image_view<const pixel> view = made.view().part({2, 1, 5, 4});
+    CHECK(view.size() == extent{3, 3});
+    CHECK(view(2, 2) == pixel{4, 3});
 }
 
 TEST_CASE("a negative stride turns a view upside down") {

@@ -188,6 +188,18 @@ TEST_CASE_TEMPLATE("a representation says how its texels round and the texel pas
     }
 }
 
+TEST_CASE_TEMPLATE("the complement of what a caster stores is as far from 0 as the caster is from the far plane", Texel, rg8, rg32f,
+                   tm8, test::paper8, test::paper32f) {
+    for (const float s : {0.0f, 0.2f, 0.6f, 1.0f}) {
+        const double scale = static_cast<double>(Texel::channel_type::scale);
+        const double depth = static_cast<double>(Texel::channel_type::code(Texel::caster(s).stored[Texel::depth_index]));
+        const double expected = scale * (1.0 - static_cast<double>(s));
+        const double error = Texel::representation_type::complement(depth, scale) - expected;
+        CHECK(error <= 1e-7 * scale);
+        CHECK(error >= -1.0 - 1e-7 * scale); // a ratio rounds down
+    }
+}
+
 TEST_CASE_TEMPLATE("a receiver at the depth of its caster is lit and one float behind it is in shadow", Representation, depth_mask,
                    depth_ratio, paper_depth_mask) {
     sweep wrong;
