@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <span>
@@ -24,6 +25,10 @@ struct pixel {
     int x;
     int y;
     friend bool operator==(pixel, pixel) = default;
+};
+
+struct alignas(64) whole_line {
+    std::byte bytes[64];
 };
 
 image<pixel> numbered(extent size) {
@@ -63,14 +68,15 @@ static_assert(strided_span<int>(nullptr, 0).size() == 0 && strided_span<int>(nul
 
 } // namespace
 
-TEST_CASE_TEMPLATE("every row of an image begins on a 64-byte boundary", T, std::uint8_t, std::array<std::uint8_t, 3>,
-                   std::uint16_t, float, std::array<double, 4>) {
+TEST_CASE_TEMPLATE("every row of an image begins on the next 64-byte boundary after the one before", T, std::uint8_t,
+                   std::array<std::uint8_t, 3>, std::uint16_t, float, std::array<double, 4>, whole_line) {
     sweep wrong;
     for (int width = 1; width < 140; ++width)
         for (const int height : {1, 2, 5}) {
             image<T> made({width, height});
             for (int y = 0; y < height; ++y) wrong.unless(address(made.view().row(y)) % 64 == 0, "width", width, "row", y);
-            wrong.unless(made.view().stride() >= static_cast<std::ptrdiff_t>(sizeof(T)) * width, "width", width);
+            const std::ptrdiff_t gap = made.view().stride() - static_cast<std::ptrdiff_t>(sizeof(T)) * width;
+            wrong.unless(gap >= 0 && gap < 64, "width", width, "gap", gap);
         }
     CHECK(wrong.report() == "");
 }
@@ -151,6 +157,7 @@ TEST_CASE("an image moved onto another of any width brings its own rows along") 
         const std::ptrdiff_t stride = made.view().stride();
         here = std::move(made);
         CHECK(here.view().stride() == stride);
+        CHECK(here.size() == extent{width, 3});
         for (int y = 0; y < 3; ++y)
             for (int x = 0; x < width; ++x) CHECK(here(x, y) == pixel{x, y});
     }
@@ -222,6 +229,7 @@ TEST_CASE("part and fill reach exactly the texels that the rectangle and the ima
                     image<int> filled(size), parted(size);
                     filled.view().fill(r, 1);
                     const image_view<int> part = parted.view().part(r);
+                    wrong.unless(part.size().empty() == (part.data() == nullptr), "memory", x0, y0, x1, y1);
                     for (int y = 0; y < part.height(); ++y)
                         for (int x = 0; x < part.width(); ++x) part(x, y) = 1;
                     for (int y = 0; y < size.height; ++y)

@@ -129,6 +129,7 @@ TEST_CASE_TEMPLATE("a clear texel is all zero and the paper's is one where depth
         const bool depth = c == Texel::depth_index || c == Texel::far_index;
         CHECK(test::equal(number(clear, c), depth && !complement ? 1.0 : 0.0));
     }
+    CHECK(test::equal(Texel::representation_type::clear_depth, complement ? 0.0 : 1.0));
     CHECK(!clear.occupied());
     if (complement) CHECK(clear == Texel{});
 }
@@ -232,6 +233,43 @@ TEST_CASE_TEMPLATE("opacity is stored as the contribution and changes nothing el
         expected.stored[Texel::contribution_index] = Texel::channel_type::encode(static_cast<double>(opacity));
         CHECK(Texel::caster(0.3f, opacity) == expected);
     }
+}
+
+TEST_CASE_TEMPLATE("a mean of two texels is rounded once: whole codes to nearest and halves upwards", Texel, rg8, rgba16, rgba16f,
+                   rgba32f, test::paper_rgba8) {
+    using channel_type = typename Texel::channel_type;
+    using sum = typename Texel::linear_sum;
+    CHECK(test::equal(Texel::linear_scale, static_cast<double>(channel_type::scale)));
+    test::float_dice dice(17);
+    sweep wrong;
+    for (int i = 0; i < 2'000; ++i) {
+        Texel a{}, b{};
+        sum sums[static_cast<std::size_t>(Texel::channels)];
+        for (int c = 0; c < Texel::channels; ++c) {
+            a.stored[c] = channel_type::encode(static_cast<double>(dice.unit()));
+            b.stored[c] = channel_type::encode(static_cast<double>(dice.unit()));
+            sums[c] = a.template linear<sum>(c) + b.template linear<sum>(c);
+        }
+        const Texel mean = Texel::from_linear(sums, sum{2});
+        for (int c = 0; c < Texel::channels; ++c) {
+            const double twice =
+                static_cast<double>(channel_type::code(a.stored[c])) + static_cast<double>(channel_type::code(b.stored[c]));
+            wrong.unless(same(mean.stored[c], channel_type::store(twice / 2.0)), "channel", c, "of", a.stored[c], b.stored[c]);
+        }
+    }
+    CHECK(wrong.report() == "");
+}
+
+TEST_CASE("the far bound of a ratio is a depth to a filter and its contribution is not") {
+    const test::ratio_rgba8 a{{200, 100, 150, 60}}, b{{100, 50, 40, 20}};
+    std::uint64_t sums[4];
+    for (int c = 0; c < 4; ++c) sums[c] = a.linear<std::uint64_t>(c) + b.linear<std::uint64_t>(c);
+    CHECK(sums[0] == 200 * 100 + 100 * 50);
+    CHECK(sums[1] == 255 * (100 + 50));
+    CHECK(sums[2] == 150 * 100 + 40 * 50);
+    CHECK(sums[3] == 255 * (60 + 20));
+    CHECK(test::ratio_rgba8::from_linear(sums, std::uint64_t{2}) == test::ratio_rgba8{{166, 75, 113, 40}}); // 166.7, 113.3: down
+    CHECK(test::equal(test::ratio_rgba8::linear_scale, 255.0 * 255.0));
 }
 
 TEST_CASE_TEMPLATE("cast keeps the nearest of three casters in whichever order they come", Texel, EVERY_TEXEL) {
