@@ -217,7 +217,8 @@ TEST_CASE_TEMPLATE("a receiver at the depth of its caster is lit and one float b
 TEST_CASE_TEMPLATE("where no mask is left every receiver is behind a depth and none is behind nothing", Representation, depth_mask,
                    depth_ratio, paper_depth_mask) {
     for (const double z : {-1.0, 0.0, 0.25, 0.5, 1.0, 2.0})
-        for (const double e : {0.0, 0x1p-100, 0.5, 1.0, 255.0}) CHECK(Representation::behind(e, 0.0, z) == (e > 0.0));
+        for (const double e : {0.0, 0x1p-100, 0.5, 1.0, 255.0})
+            for (const double m : {0.0, -0.0}) CHECK(Representation::behind(e, m, z) == (e > 0.0));
 }
 
 TEST_CASE_TEMPLATE("a caster outside of 0 to 1 is clamped and one at NaN is at the far plane", Texel, EVERY_TEXEL) {
