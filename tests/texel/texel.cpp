@@ -91,7 +91,8 @@ static_assert(rga8::far_index == -1 && rga8::contribution_index == 2);
 static_assert(rgba8::far_index == 2 && rgba8::contribution_index == 3);
 static_assert(rg8::depth_index == 0 && rg8::mask_index == 1 && rg8::far_index == -1 && rg8::contribution_index == -1);
 
-// cast and bound at compile time.
+// At compile time, where an index outside of the channels does not compile.
+static_assert(rg8::clear() == rg8{} && rga8::clear() == rga8{} && rg8::caster(0.0f) == rg8{{255, 255}});
 constexpr rgba8 a_bounded_caster() {
     rgba8 t = rgba8::clear();
     t.cast(rgba8::caster(0.8f, 1.0f));
