@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <span>
@@ -24,6 +25,10 @@ struct pixel {
     int x;
     int y;
     friend bool operator==(pixel, pixel) = default;
+};
+
+struct alignas(64) whole_line {
+    std::byte bytes[64];
 };
 
 image<pixel> numbered(extent size) {
@@ -59,17 +64,19 @@ constexpr int sum_of_three() {
 }
 static_assert(sum_of_three() == 321);
 static_assert(strided_span<int>().size() == 0 && strided_span<int>(nullptr, -3).size() == 0);
+static_assert(strided_span<int>(nullptr, 0).size() == 0 && strided_span<int>(nullptr, 1).size() == 1);
 
 } // namespace
 
-TEST_CASE_TEMPLATE("every row of an image begins on a 64-byte boundary", T, std::uint8_t, std::array<std::uint8_t, 3>,
-                   std::uint16_t, float, std::array<double, 4>) {
+TEST_CASE_TEMPLATE("every row of an image begins on the next 64-byte boundary after the one before", T, std::uint8_t,
+                   std::array<std::uint8_t, 3>, std::uint16_t, float, std::array<double, 4>, whole_line) {
     sweep wrong;
     for (int width = 1; width < 140; ++width)
         for (const int height : {1, 2, 5}) {
             image<T> made({width, height});
             for (int y = 0; y < height; ++y) wrong.unless(address(made.view().row(y)) % 64 == 0, "width", width, "row", y);
-            wrong.unless(made.view().stride() >= static_cast<std::ptrdiff_t>(sizeof(T)) * width, "width", width);
+            const std::ptrdiff_t gap = made.view().stride() - static_cast<std::ptrdiff_t>(sizeof(T)) * width;
+            wrong.unless(gap >= 0 && gap < 64, "width", width, "gap", gap);
         }
     CHECK(wrong.report() == "");
 }
@@ -92,7 +99,8 @@ TEST_CASE("an image with a side that is zero or negative has no texels there") {
     CHECK(image<int>().size() == extent{});
     CHECK(image<int>().view().part({-5, -5, 5, 5}).size() == extent{});
     image<int>({-3, 4}).view().fill({-9, -9, 9, 9}, 1);
-    CHECK(image_view<int>(nullptr, {-3, 4}).size().empty());
+    CHECK(image_view<int>(nullptr, {-3, 4}).size() == extent{});
+    CHECK(image_view<int>(nullptr, {4, -3}).size() == extent{});
     CHECK(image_view<int>().size().empty());
     CHECK((image_view<int>().data() == nullptr && image_view<int>().stride() == 0));
 }
@@ -149,6 +157,7 @@ TEST_CASE("an image moved onto another of any width brings its own rows along") 
         const std::ptrdiff_t stride = made.view().stride();
         here = std::move(made);
         CHECK(here.view().stride() == stride);
+        CHECK(here.size() == extent{width, 3});
         for (int y = 0; y < 3; ++y)
             for (int x = 0; x < width; ++x) CHECK(here(x, y) == pixel{x, y});
     }
@@ -176,6 +185,25 @@ TEST_CASE("a view without a stride takes rows that follow each other") {
     CHECK(view.row_span(1)[2] == 6);
 }
 
+TEST_CASE("a view of memory with a side that is zero or negative has no texels there") {
+    int memory[4]{};
+    CHECK(image_view<int>(memory, {0, 4}).size() == extent{0, 4});
+    CHECK(image_view<int>(memory, {-3, 4}).size() == extent{0, 4});
+    CHECK(image_view<int>(memory, {4, 0}).size() == extent{4, 0});
+    CHECK(image_view<int>(memory, {4, -3}).size() == extent{4, 0});
+}
+
+TEST_CASE("a span or a view of const sees what it was made from") {
+    image<pixel> made = numbered({7, 4});
+    const strided_span<pixel> column(made.view().data() + 5, 4, made.view().stride());
+    const strided_span<const pixel> seen = column;
+    CHECK(seen.size() == 4);
+    CHECK(seen[3] == pixel{5, 3});
+    const image_view<const pixel> view = made.view().part({2, 1, 5, 4});
+    CHECK(view.size() == extent{3, 3});
+    CHECK(view(2, 2) == pixel{4, 3});
+}
+
 TEST_CASE("a negative stride turns a view upside down") {
     image<pixel> made = numbered({7, 4});
     const image_view<pixel> upright = made.view();
@@ -201,6 +229,7 @@ TEST_CASE("part and fill reach exactly the texels that the rectangle and the ima
                     image<int> filled(size), parted(size);
                     filled.view().fill(r, 1);
                     const image_view<int> part = parted.view().part(r);
+                    wrong.unless(part.size().empty() == (part.data() == nullptr), "memory", x0, y0, x1, y1);
                     for (int y = 0; y < part.height(); ++y)
                         for (int x = 0; x < part.width(); ++x) part(x, y) = 1;
                     for (int y = 0; y < size.height; ++y)

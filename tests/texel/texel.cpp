@@ -91,7 +91,8 @@ static_assert(rga8::far_index == -1 && rga8::contribution_index == 2);
 static_assert(rgba8::far_index == 2 && rgba8::contribution_index == 3);
 static_assert(rg8::depth_index == 0 && rg8::mask_index == 1 && rg8::far_index == -1 && rg8::contribution_index == -1);
 
-// cast and bound at compile time.
+// At compile time, where an index outside of the channels does not compile.
+static_assert(rg8::clear() == rg8{} && rga8::clear() == rga8{} && rg8::caster(0.0f) == rg8{{255, 255}});
 constexpr rgba8 a_bounded_caster() {
     rgba8 t = rgba8::clear();
     t.cast(rgba8::caster(0.8f, 1.0f));
@@ -129,6 +130,7 @@ TEST_CASE_TEMPLATE("a clear texel is all zero and the paper's is one where depth
         const bool depth = c == Texel::depth_index || c == Texel::far_index;
         CHECK(test::equal(number(clear, c), depth && !complement ? 1.0 : 0.0));
     }
+    CHECK(test::equal(Texel::representation_type::clear_depth, complement ? 0.0 : 1.0));
     CHECK(!clear.occupied());
     if (complement) CHECK(clear == Texel{});
 }
@@ -188,6 +190,18 @@ TEST_CASE_TEMPLATE("a representation says how its texels round and the texel pas
     }
 }
 
+TEST_CASE_TEMPLATE("the complement of what a caster stores is as far from 0 as the caster is from the far plane", Texel, rg8, rg32f,
+                   tm8, test::paper8, test::paper32f) {
+    for (const float s : {0.0f, 0.2f, 0.6f, 1.0f}) {
+        const double scale = static_cast<double>(Texel::channel_type::scale);
+        const double depth = static_cast<double>(Texel::channel_type::code(Texel::caster(s).stored[Texel::depth_index]));
+        const double expected = scale * (1.0 - static_cast<double>(s));
+        const double error = Texel::representation_type::complement(depth, scale) - expected;
+        CHECK(error <= 1e-7 * scale);
+        CHECK(error >= -1.0 - 1e-7 * scale); // a ratio rounds down
+    }
+}
+
 TEST_CASE_TEMPLATE("a receiver at the depth of its caster is lit and one float behind it is in shadow", Representation, depth_mask,
                    depth_ratio, paper_depth_mask) {
     sweep wrong;
@@ -204,7 +218,8 @@ TEST_CASE_TEMPLATE("a receiver at the depth of its caster is lit and one float b
 TEST_CASE_TEMPLATE("where no mask is left every receiver is behind a depth and none is behind nothing", Representation, depth_mask,
                    depth_ratio, paper_depth_mask) {
     for (const double z : {-1.0, 0.0, 0.25, 0.5, 1.0, 2.0})
-        for (const double e : {0.0, 0x1p-100, 0.5, 1.0, 255.0}) CHECK(Representation::behind(e, 0.0, z) == (e > 0.0));
+        for (const double e : {0.0, 0x1p-100, 0.5, 1.0, 255.0})
+            for (const double m : {0.0, -0.0}) CHECK(Representation::behind(e, m, z) == (e > 0.0));
 }
 
 TEST_CASE_TEMPLATE("a caster outside of 0 to 1 is clamped and one at NaN is at the far plane", Texel, EVERY_TEXEL) {
@@ -220,6 +235,43 @@ TEST_CASE_TEMPLATE("opacity is stored as the contribution and changes nothing el
         expected.stored[Texel::contribution_index] = Texel::channel_type::encode(static_cast<double>(opacity));
         CHECK(Texel::caster(0.3f, opacity) == expected);
     }
+}
+
+TEST_CASE_TEMPLATE("a mean of two texels is rounded once: whole codes to nearest and halves upwards", Texel, rg8, rgba16, rgba16f,
+                   rgba32f, test::paper_rgba8) {
+    using channel_type = typename Texel::channel_type;
+    using sum = typename Texel::linear_sum;
+    CHECK(test::equal(Texel::linear_scale, static_cast<double>(channel_type::scale)));
+    test::float_dice dice(17);
+    sweep wrong;
+    for (int i = 0; i < 2'000; ++i) {
+        Texel a{}, b{};
+        sum sums[static_cast<std::size_t>(Texel::channels)];
+        for (int c = 0; c < Texel::channels; ++c) {
+            a.stored[c] = channel_type::encode(static_cast<double>(dice.unit()));
+            b.stored[c] = channel_type::encode(static_cast<double>(dice.unit()));
+            sums[c] = a.template linear<sum>(c) + b.template linear<sum>(c);
+        }
+        const Texel mean = Texel::from_linear(sums, sum{2});
+        for (int c = 0; c < Texel::channels; ++c) {
+            const double twice =
+                static_cast<double>(channel_type::code(a.stored[c])) + static_cast<double>(channel_type::code(b.stored[c]));
+            wrong.unless(same(mean.stored[c], channel_type::store(twice / 2.0)), "channel", c, "of", a.stored[c], b.stored[c]);
+        }
+    }
+    CHECK(wrong.report() == "");
+}
+
+TEST_CASE("the far bound of a ratio is a depth to a filter and its contribution is not") {
+    const test::ratio_rgba8 a{{200, 100, 150, 60}}, b{{100, 50, 40, 20}};
+    std::uint64_t sums[4];
+    for (int c = 0; c < 4; ++c) sums[c] = a.linear<std::uint64_t>(c) + b.linear<std::uint64_t>(c);
+    CHECK(sums[0] == 200 * 100 + 100 * 50);
+    CHECK(sums[1] == 255 * (100 + 50));
+    CHECK(sums[2] == 150 * 100 + 40 * 50);
+    CHECK(sums[3] == 255 * (60 + 20));
+    CHECK(test::ratio_rgba8::from_linear(sums, std::uint64_t{2}) == test::ratio_rgba8{{166, 75, 113, 40}}); // 166.7, 113.3: down
+    CHECK(test::equal(test::ratio_rgba8::linear_scale, 255.0 * 255.0));
 }
 
 TEST_CASE_TEMPLATE("cast keeps the nearest of three casters in whichever order they come", Texel, EVERY_TEXEL) {

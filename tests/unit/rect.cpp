@@ -65,11 +65,13 @@ TEST_CASE("an extent or rectangle is empty if and only if it holds no texel") {
     for (const texel_rect r : all_rects(4)) {
         const counted set = count([r](int x, int y) { return r.contains(x, y); });
         wrong.unless(r.empty() == (set.texels == 0) && r.width() * r.height() == set.texels, r.x0, r.y0, r.x1, r.y1);
+        wrong.unless(!r.empty() || (r.width() == 0 && r.height() == 0), "sides", r.x0, r.y0, r.x1, r.y1);
         wrong.unless(tile_rect{r.x0, r.y0, r.x1, r.y1}.empty() == r.empty(), "tiles", r.x0, r.y0, r.x1, r.y1);
     }
     CHECK(wrong.report() == "");
     CHECK(texel_rect{int_max, 0, int_min, 1}.empty());
     CHECK(texel_rect{int_max, 0, int_min, 1}.width() == 0);
+    CHECK(texel_rect{0, int_max, 1, int_min}.height() == 0);
 }
 
 TEST_CASE("whole counts a negative side as zero") {
