@@ -116,8 +116,25 @@ TEST_CASE("a region partly or wholly off the map is to lanes what it is to the o
     CHECK(differing<gnomon::best_isa, binomial<2>>(map.view(), {90, 90, 95, 95}) == 0);
 }
 
-TEST_CASE_TEMPLATE("what lanes do not know is left to the oracle: a ratio of two sums, a channel of a user's, radii beyond 256",
-                   Texel, gnomon::tm8, gnomon::texel<own_channel>, rg8) {
+TEST_CASE_TEMPLATE("a ratio of two sums is the oracle's in lanes too, where the sums are exact in double", Texel, gnomon::tm8,
+                   gnomon::tm16) {
+    using gnomon::on_any::filtered_in_lanes;
+    CHECK((filtered_in_lanes<binomial<4>, Texel> && filtered_in_lanes<box<256>, gnomon::tm8>));
+    CHECK((filtered_in_lanes<gaussian<4>, gnomon::tm8> && !filtered_in_lanes<gaussian<4>, gnomon::tm16>));
+    dice roll(406);
+    image<Texel> map({150, 23});
+    fill_with_bits(roll, map.view());
+    for_each_texel({90, 4, 150, 19},
+                   [&](int x, int y) { map(x, y) = roll.one_in(5) ? test::any_caster<Texel>(roll) : Texel::clear(); });
+    for_each_isa([&]<typename Isa>() {
+        CHECK(differing<Isa, binomial<4>>(image_view<const Texel>(map.view()), whole(map.size())) == 0);
+        CHECK(differing<Isa, gaussian<3>>(image_view<const Texel>(map.view()), {5, 2, 131, 23}) == 0);
+        CHECK(differing<Isa, box<3>>(image_view<const Texel>(map.view()), whole(map.size())) == 0);
+    });
+}
+
+TEST_CASE_TEMPLATE("what lanes do not know is left to the oracle: ratios of wide sums, a channel of a user's, radii beyond 256",
+                   Texel, gnomon::tm16, gnomon::texel<own_channel>, rg8) {
     dice roll(403);
     const image<Texel> map = test::noise<Texel>(roll, {70, 9}, 2);
     CHECK(differing<gnomon::best_isa, gaussian<3>>(map.view(), whole(map.size())) == 0);

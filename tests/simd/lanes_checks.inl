@@ -239,6 +239,7 @@ template <typename Isa> int wrong_doubles(const double* number) {
     return differing<Isa>(a, e) + (std::memcmp(stored, number, static_cast<std::size_t>(Isa::bytes)) != 0) +
            differing<Isa>(Isa::repeat(number[3]), same::repeat(number[3])) + differing<Isa>(Isa::add(a, b), same::add(e, f)) +
            differing<Isa>(Isa::multiply(a, b), same::multiply(e, f)) + differing<Isa>(Isa::divide(a, b), same::divide(e, f)) +
+           differing<Isa>(Isa::multiply_pairs(a, number[9]), same::multiply_pairs(e, number[9])) +
            differing<Isa>(Isa::add_and_mask(a, 1 << 16, ~std::uint64_t{0x1FFFF}),
                           same::add_and_mask(e, 1 << 16, ~std::uint64_t{0x1FFFF}));
 }

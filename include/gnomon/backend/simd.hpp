@@ -132,7 +132,7 @@ template <typename Isa = best_isa> struct simd {
                        filter_scratch<Texel, Kernel>& scratch) const noexcept {
         static_assert(kernel_is_sound<Kernel>());
         if constexpr (detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
-                      Texel::representation_type::premultiplied && Kernel::radius <= 256) {
+                      on_any::filtered_in_lanes<Kernel, Texel>) {
             const texel_rect part = clip(clip(region, to.size()), from.size());
             const auto filtered_by = [&]<typename Lanes>() { return detail::filter_on<Lanes, Kernel>(from, to, part); };
             if (!part.empty() && from.data() != to.data() && call(filtered_by)) return;

@@ -79,7 +79,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
 /// Can lanes run sums of this texel and kernel? A kernel of one tap is as quick without.
 template <kernel Kernel, texel_format Texel>
 inline constexpr bool runs_sums = [] {
-    if constexpr (Texel::channel_type::whole_codes && Kernel::radius > 0 &&
+    if constexpr (Texel::channel_type::whole_codes && Texel::representation_type::premultiplied && Kernel::radius > 0 &&
                   detail::is_box<typename detail::sums<Texel, Kernel>::weights_of>)
         return division<std::uint64_t{Kernel::total} * Kernel::total,
                         static_cast<std::uint64_t>(Texel::channel_type::scale)>::exact;

@@ -55,8 +55,10 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
     GNOMON_LANES numbers codes(const storage* from) noexcept {
         if constexpr (by::in_floats)
             return Isa::template codes_of<channel_type, 1>(from, 0);
-        else
+        else if constexpr (Texel::representation_type::premultiplied)
             return Isa::template codes<channel_type>(from);
+        else
+            return Isa::multiply_pairs(Isa::template codes<channel_type>(from), static_cast<double>(channel_type::scale));
     }
 
     static void columns(const storage* const* rows, const storage* const* ahead, Number* line, int count) noexcept {
@@ -88,7 +90,7 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
 
     static void clear(Number* line, int first, int last) noexcept {
         for (int i = first; i < last; ++i) {
-            const auto code = static_cast<Number>(channel_type::code(Texel::clear().stored[i % Texel::channels]));
+            const auto code = Texel::clear().template linear<Number>(i % Texel::channels);
             line[i] = static_cast<Number>(by::weights_of::total) / by::unit * code;
         }
     }
@@ -100,7 +102,16 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         for (int t = 0; t < taps; ++t)
             sum = Isa::add_product(sum, Isa::load(line + t * Texel::channels),
                                    Isa::repeat(weights[static_cast<std::size_t>(t + rows_at_once)]));
-        if constexpr (channel_type::whole_codes) {
+        if constexpr (!Texel::representation_type::premultiplied) {
+            double sums[static_cast<std::size_t>(step)];
+            Isa::store(sums, sum);
+            for (int k = 0; k < step; k += Texel::channels) {
+                const std::uint64_t linear[] = {static_cast<std::uint64_t>(sums[k]), static_cast<std::uint64_t>(sums[k + 1])};
+                const Texel made = Texel::from_linear(linear, by::whole);
+                to[k] = made.stored[0];
+                to[k + 1] = made.stored[1];
+            }
+        } else if constexpr (channel_type::whole_codes) {
             // Halves upwards, then down. The quarter keeps what is whole from being rounded below itself: sum and whole are whole, and
             // a quarter of 1/whole is more than the product can be wrong by, for every total there is.
             constexpr double half = static_cast<double>(by::whole / 2) + 0.25;
@@ -108,7 +119,7 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         } else if constexpr (!by::in_floats || !std::has_single_bit(static_cast<unsigned>(by::weights_of::total))) {
             sum = Isa::divide(sum, Isa::repeat(whole));
         }
-        Isa::template store_codes<channel_type>(to, sum);
+        if constexpr (Texel::representation_type::premultiplied) Isa::template store_codes<channel_type>(to, sum);
     }
 };
 
@@ -405,10 +416,17 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct word_filter : 
     }
 };
 
+/// What lanes filter: premultiplied texels, and pairs of a ratio whose sums, of products of two codes, are exact in double.
+template <kernel Kernel, texel_format Texel>
+inline constexpr bool filtered_in_lanes =
+    Kernel::radius <= 256 && (Texel::representation_type::premultiplied ||
+                              (Texel::channels == 2 && Texel::linear_scale * Kernel::total * Kernel::total < 0x1p53));
+
 /// What serves a texel and a kernel best. All give the same bits where several can.
 template <typename Isa, kernel Kernel, texel_format Texel> consteval auto choose_filter() {
     using by = detail::sums<Texel, Kernel>;
-    constexpr bool bytes = std::same_as<typename Texel::channel_type, unorm8> && in_eight_bits<typename by::weights_of>;
+    constexpr bool bytes = Texel::representation_type::premultiplied && std::same_as<typename Texel::channel_type, unorm8> &&
+                           in_eight_bits<typename by::weights_of>;
     constexpr bool words = by::stored_between;
     if constexpr ((bytes || words) && Texel::channels == 2)
         return std::type_identity<pair_filter<Isa, Kernel, Texel>>{};

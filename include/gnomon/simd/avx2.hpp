@@ -187,6 +187,9 @@ struct avx2 {
     GNOMON_LANES doubles add(doubles a, doubles b) noexcept { return _mm256_add_pd(a, b); }
     GNOMON_LANES doubles multiply(doubles a, doubles b) noexcept { return _mm256_mul_pd(a, b); }
     GNOMON_LANES doubles divide(doubles a, doubles b) noexcept { return _mm256_div_pd(a, b); }
+    GNOMON_LANES doubles multiply_pairs(doubles a, double b) noexcept {
+        return _mm256_mul_pd(a, _mm256_blend_pd(_mm256_permute_pd(a, 0x5), _mm256_set1_pd(b), 0xA));
+    }
     GNOMON_LANES doubles add_product(doubles sum, doubles a, doubles b) noexcept { return _mm256_fmadd_pd(a, b, sum); }
     GNOMON_LANES doubles add_and_mask(doubles a, std::uint64_t addend, std::uint64_t mask) noexcept {
         const ints sum = _mm256_add_epi64(_mm256_castpd_si256(a), _mm256_set1_epi64x(static_cast<long long>(addend)));

@@ -184,6 +184,9 @@ struct avx512 {
     GNOMON_LANES doubles add(doubles a, doubles b) noexcept { return _mm512_add_pd(a, b); }
     GNOMON_LANES doubles multiply(doubles a, doubles b) noexcept { return _mm512_mul_pd(a, b); }
     GNOMON_LANES doubles divide(doubles a, doubles b) noexcept { return _mm512_div_pd(a, b); }
+    GNOMON_LANES doubles multiply_pairs(doubles a, double b) noexcept {
+        return _mm512_mul_pd(a, _mm512_mask_mov_pd(_mm512_set1_pd(b), 0x55, _mm512_maskz_permute_pd(eight, a, 0x55)));
+    }
     GNOMON_LANES doubles add_product(doubles sum, doubles a, doubles b) noexcept { return _mm512_fmadd_pd(a, b, sum); }
     GNOMON_LANES doubles add_and_mask(doubles a, std::uint64_t addend, std::uint64_t mask) noexcept {
         const ints sum = _mm512_add_epi64(_mm512_castpd_si512(a), _mm512_set1_epi64(static_cast<long long>(addend)));

@@ -313,6 +313,10 @@ template <int Bytes> struct emulated {
     [[nodiscard]] static doubles divide(doubles a, doubles b) noexcept {
         return each([&](int i) { return a.lane[i] / b.lane[i]; });
     }
+    /// Of each two neighbours the product, and the second one times `b`.
+    [[nodiscard]] static doubles multiply_pairs(doubles a, double b) noexcept {
+        return each([&](int i) { return a.lane[i] * (i % 2 == 0 ? a.lane[i + 1] : b); });
+    }
     /// sum + a * b, \pre a * b is exact, so that it does not matter who fuses them.
     [[nodiscard]] static doubles add_product(doubles sum, doubles a, doubles b) noexcept {
         return each([&](int i) { return sum.lane[i] + a.lane[i] * b.lane[i]; });

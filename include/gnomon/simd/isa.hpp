@@ -108,6 +108,7 @@ concept simd_isa =
         { Isa::add(d, d) } -> std::same_as<typename Isa::doubles>;
         { Isa::multiply(d, d) } -> std::same_as<typename Isa::doubles>;
         { Isa::divide(d, d) } -> std::same_as<typename Isa::doubles>;
+        { Isa::multiply_pairs(d, wide) } -> std::same_as<typename Isa::doubles>;
         { Isa::add_product(d, d, d) } -> std::same_as<typename Isa::doubles>;
         { Isa::add_and_mask(d, bits, bits) } -> std::same_as<typename Isa::doubles>;
         { Isa::subtract(d, d) } -> std::same_as<typename Isa::doubles>;

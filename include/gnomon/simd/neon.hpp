@@ -192,6 +192,9 @@ struct neon {
     GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
     GNOMON_LANES doubles multiply(doubles a, doubles b) noexcept { return vmulq_f64(a, b); }
     GNOMON_LANES doubles divide(doubles a, doubles b) noexcept { return vdivq_f64(a, b); }
+    GNOMON_LANES doubles multiply_pairs(doubles a, double b) noexcept {
+        return vmulq_f64(a, vcombine_f64(vget_high_f64(a), vdup_n_f64(b)));
+    }
     GNOMON_LANES doubles add_product(doubles sum, doubles a, doubles b) noexcept { return vfmaq_f64(sum, a, b); }
     GNOMON_LANES doubles add_and_mask(doubles a, std::uint64_t addend, std::uint64_t mask) noexcept {
         const uint64x2_t sum = vaddq_u64(vreinterpretq_u64_f64(a), vdupq_n_u64(addend));

@@ -192,6 +192,9 @@ struct sse2 {
     GNOMON_LANES doubles add(doubles a, doubles b) noexcept { return _mm_add_pd(a, b); }
     GNOMON_LANES doubles multiply(doubles a, doubles b) noexcept { return _mm_mul_pd(a, b); }
     GNOMON_LANES doubles divide(doubles a, doubles b) noexcept { return _mm_div_pd(a, b); }
+    GNOMON_LANES doubles multiply_pairs(doubles a, double b) noexcept {
+        return _mm_mul_pd(a, _mm_shuffle_pd(a, _mm_set1_pd(b), 1));
+    }
     GNOMON_LANES doubles add_product(doubles sum, doubles a, doubles b) noexcept { return _mm_add_pd(sum, _mm_mul_pd(a, b)); }
     GNOMON_LANES doubles add_and_mask(doubles a, std::uint64_t addend, std::uint64_t mask) noexcept {
         const ints sum = _mm_add_epi64(_mm_castpd_si128(a), _mm_set1_epi64x(static_cast<long long>(addend)));

@@ -184,6 +184,9 @@ struct wasm128 {
     GNOMON_LANES_VOID void settle(doubles&) noexcept {}
     GNOMON_LANES doubles multiply(doubles a, doubles b) noexcept { return a * b; }
     GNOMON_LANES doubles divide(doubles a, doubles b) noexcept { return a / b; }
+    GNOMON_LANES doubles multiply_pairs(doubles a, double b) noexcept {
+        return doubles_of(wasm_f64x2_mul(bits_of(a), wasm_i64x2_shuffle(bits_of(a), wasm_f64x2_splat(b), 1, 2)));
+    }
     GNOMON_LANES doubles add_product(doubles sum, doubles a, doubles b) noexcept { return sum + a * b; }
     GNOMON_LANES doubles add_and_mask(doubles a, std::uint64_t addend, std::uint64_t mask) noexcept {
         return doubles_of(wasm_i64x2_add(bits_of(a), wasm_u64x2_splat(addend)) & wasm_u64x2_splat(mask));
