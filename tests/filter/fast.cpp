@@ -64,6 +64,21 @@ TEST_CASE_TEMPLATE("fast, sixteen bits are filtered by weights of fifteen and st
     CHECK(differing(test::dense<fast<gaussian<0>>>(from), from) == 0);
 }
 
+TEST_CASE(
+    "fast, ratios of 16 bits are filtered by weights of ten bits, those of 8 bits and a user's channel by the kernel itself") {
+    struct own : unorm16 {};
+    dice roll(706);
+    const auto from = test::noise<tm16>(roll, {41, 37}, 3);
+    CHECK(differing(test::dense<fast<gaussian<3>>>(from), test::dense<detail::in_units<gaussian<3>, 1024>>(from)) == 0);
+    CHECK(differing(test::dense<fast<gaussian<3>>>(from), test::dense<gaussian<3>>(from)) > 0);
+    CHECK(differing(test::dense<fast<binomial<5>>>(from), test::dense<binomial<5>>(from)) == 0); // 1024 already
+    CHECK(differing(test::dense<fast<gaussian<129>>>(from), test::dense<gaussian<129>>(from)) == 0);
+    const auto bytes = test::noise<tm8>(roll, {41, 37}, 3);
+    CHECK(differing(test::dense<fast<gaussian<3>>>(bytes), test::dense<gaussian<3>>(bytes)) == 0);
+    const auto of_user = test::noise<texel<own>>(roll, {41, 37}, 3);
+    CHECK(differing(test::dense<fast<gaussian<3>>>(of_user), test::dense<gaussian<3>>(of_user)) == 0);
+}
+
 TEST_CASE("fast, sixteen bits are at most one code from the convolution, and that far if both roundings are halves") {
     dice roll(703);
     const auto from = test::noise<rg16>(roll, {41, 37}, 3);

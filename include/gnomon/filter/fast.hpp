@@ -15,7 +15,7 @@ namespace gnomon::inline GNOMON_BUILD {
 ///                  box, if 256 is a multiple of its total, or if it is wider than R = 32
 ///     unorm16      weights of 15 bits, and rounded twice, after the columns and after the row: at most one code off instead of half
 ///     half, float  single precision: every product and every sum is rounded, 2R+1 times a pass
-///     depth_ratio  the kernel as it is
+///     depth_ratio  in 16 bits weights of ten bits, up to R = 128, and then no error but the two roundings; in 8 bits the kernel as it is
 ///
 /// Weights are within one unit of the kernel's proportions. Everything else that a filter promises still holds, in every bit on
 /// every processor: clear stays clear, e <= m, and in unorm a uniform region stays itself. `filter_roundings` tells bias the rest.
@@ -48,15 +48,19 @@ template <texel_format Texel, kernel Kernel>
 struct plan<Texel, Kernel> {
     using channel_type = typename Texel::channel_type;
     using given = typename Kernel::exact;
-    static constexpr bool as_it_is =
-        !Texel::representation_type::premultiplied || Kernel::radius == 0 || (channel_type::whole_codes && is_box<given>);
-    static constexpr auto how = as_it_is                              ? arithmetic::exact
-                                : !channel_type::whole_codes          ? arithmetic::single
-                                : std::same_as<channel_type, unorm16> ? arithmetic::stored
-                                                                      : arithmetic::exact;
-    static constexpr bool eight_bits = how == arithmetic::exact && !as_it_is && Kernel::radius <= 32 && 256 % Kernel::total != 0;
-    using weights_of = std::conditional_t<how == arithmetic::stored, in_units<given, 1 << 15>,
-                                          std::conditional_t<eight_bits, eight_bit<given>, given>>;
+    static constexpr bool is_unorm8 = std::same_as<channel_type, unorm8>, is_unorm16 = std::same_as<channel_type, unorm16>,
+                          is_float = std::same_as<channel_type, half16> || std::same_as<channel_type, float32>,
+                          is_ratio = !Texel::representation_type::premultiplied,
+                          as_it_is = Kernel::radius == 0 || (channel_type::whole_codes && is_box<given>);
+    static constexpr auto how = as_it_is || is_ratio ? arithmetic::exact
+                                : is_unorm16         ? arithmetic::stored
+                                : is_float           ? arithmetic::single
+                                                     : arithmetic::exact;
+    static constexpr bool bytes = is_unorm8 && !is_ratio && !as_it_is && Kernel::radius <= 32 && 256 % Kernel::total != 0,
+                          ratios = is_unorm16 && is_ratio && !as_it_is && Kernel::radius <= 128 && Kernel::total > 1024;
+    using weights_of = std::conditional_t<
+        how == arithmetic::stored, in_units<given, 1 << 15>,
+        std::conditional_t<bytes, in_units<given, 256>, std::conditional_t<ratios, in_units<given, 1024>, given>>>;
 };
 
 } // namespace detail
