@@ -64,6 +64,9 @@ def check(include, _compiler):
     for name in headers.closure(include, "gnomon/gnomon.hpp"):
         if place(name) in ("geometry", "gl"):
             complaints.append(f"gnomon/gnomon.hpp brings along {name}")
+    for name in headers.closure(include, "gnomon/backend/reconstruct.hpp"):
+        if place(name) == "grid" or (place(name) == "filter" and name != "gnomon/filter/sample.hpp"):
+            complaints.append(f"gnomon/backend/reconstruct.hpp brings along {name}")
     return complaints
 
 
@@ -74,6 +77,7 @@ headers.main(check, [
     ("gnomon/backend/scalar.hpp", "#include <gnomon/soft_shadow_map.hpp>\n", "includes it back"),
     ("gnomon/geometry/light_frame.hpp", "# include <gnomon/soft_shadow_map.hpp>\n", "against the arrows"),
     ("gnomon/gnomon.hpp", "#include <gnomon/geometry/footprint.hpp>\n", "brings along"),
+    ("gnomon/receive/decide.hpp", "#include <gnomon/filter/kernel.hpp>\n", "reconstruct.hpp brings along"),
     ("gnomon/texel/half.hpp", "  #  include <glm/vec3.hpp>\n", "GLM belongs"),
     ("gnomon/texel/half.hpp", '#include "channel.hpp"\n', "in quotes"),
     ("gnomon/unit.hpp", "#include <gnomon/rect.hpp>\n", "includes it back"),

@@ -2,6 +2,7 @@
 import headers
 
 TEXEL, STORAGE, FILTER, UMBRELLA, INTRINSICS = 13000, 19000, 20000, 24000, 66000
+OWN = {"gnomon/backend/reconstruct.hpp": 59000}  # what it costs to drop in reconstruction by itself; 41,000 of them are intrinsics
 STORES = {"gnomon/texel/image.hpp", "gnomon/grid/tile_grid.hpp"}  # these own memory, so they include <vector>
 HEAVY = {"algorithm", "cmath", "functional", "memory", "ranges", "string", "iostream"}
 LIGHT_FOLDERS = {"texel", "grid", "filter", "receive", "backend"}
@@ -12,6 +13,8 @@ def folder(header):
 
 
 def budget(include, header):
+    if header in OWN:
+        return OWN[header]
     if any(folder(h) == "simd" and h != "gnomon/simd/region.hpp" for h in headers.closure(include, header)):
         return INTRINSICS  # 40,000 of them are immintrin.h, and what is written for lanes comes once for each target
     if folder(header) in ("filter", "receive", "baseline", "identity"):
@@ -40,4 +43,5 @@ headers.main(check, [
     ("gnomon/filter/kernel.hpp", "#include <algorithm>\n", "too heavy"),
     ("gnomon/texel/half.hpp", "#include <regex>\n", "lines after preprocessing"),
     ("gnomon/soft_shadow_map.hpp", "#include <regex>\n", "gnomon/gnomon.hpp"),
+    ("gnomon/backend/reconstruct.hpp", "#include <gnomon/backend/simd.hpp>\n", "59000 are allowed"),
 ])

@@ -97,7 +97,7 @@ TEST_CASE_TEMPLATE(
     }
 }
 
-TEST_CASE_TEMPLATE("lanes decide floats and halves exactly: at the float where a shadow begins, one before and one after; and the "
+TEST_CASE_TEMPLATE("lanes decide floats and halves exactly: at the float where a shadow begins, one before and one after, and the "
                    "smallest masks and depths",
                    Texel, gnomon::rg32f, gnomon::rg16f) {
     dice roll(405);

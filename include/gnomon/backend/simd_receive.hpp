@@ -276,9 +276,9 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         ints texel, here, next;
     };
 
-    /// A few registers of receivers on their way from place to texels to decision. They rest before either, for what is stored as a
+    /// A few registers of receivers on their way from place to texels to decision. They pause before either, for what is stored as a
     /// whole and loaded piece by piece, or the other way round, takes its time, and so do texels that are not in the first cache.
-    static constexpr int rest = 3 * step, ring = 8 * step;
+    static constexpr int pause = 3 * step, ring = 8 * step;
     struct work {
         int at[static_cast<std::size_t>(ring)]; ///< bytes from the map to the upper left texel
         std::uint32_t across[static_cast<std::size_t>(ring)], above[static_cast<std::size_t>(ring)],
@@ -414,10 +414,10 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     static void some(const blended_decision& by, image_view<const Texel> map, const float* x, const float* y, const Depth* z,
                      Intensity* to, int count, const rule& r) noexcept {
         alignas(64) work w;
-        for (int first = 0; first < count + 2 * rest; first += step) {
+        for (int first = 0; first < count + 2 * pause; first += step) {
             if (first < count) locate(by, x + first, y + first, w, first % ring);
-            if (first >= rest && first < count + rest) fetch(by, w, (first - rest) % ring);
-            const int i = first - 2 * rest;
+            if (first >= pause && first < count + pause) fetch(by, w, (first - pause) % ring);
+            const int i = first - 2 * pause;
             if (i < 0) continue;
             const pair blended = blend(w, i % ring);
             masks shadowed;

@@ -121,9 +121,7 @@ struct avx512 {
     GNOMON_LANES ints lesser32(ints a, ints b) noexcept { return _mm512_maskz_min_epi32(all, a, b); }
     GNOMON_LANES ints greater32(ints a, ints b) noexcept { return _mm512_maskz_max_epi32(all, a, b); }
     template <int Bits> GNOMON_LANES ints shift_left32(ints a) noexcept { return _mm512_maskz_slli_epi32(all, a, Bits); }
-    GNOMON_LANES ints floor32(floats a) noexcept {
-        return _mm512_maskz_cvt_roundps_epi32(all, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
-    }
+    GNOMON_LANES ints floor32(floats a) noexcept { return _mm512_maskz_cvttps_epi32(all, _mm512_floor_ps(a)); }
 
     GNOMON_LANES floats load(const float* from) noexcept { return _mm512_loadu_ps(from); }
     GNOMON_LANES_VOID void store(float* to, floats a) noexcept { _mm512_storeu_ps(to, a); }

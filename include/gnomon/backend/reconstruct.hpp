@@ -1,0 +1,152 @@
+// gnomon: soft shadow maps. Reconstruction by itself: maps that somebody filtered, receivers in spans, intensities out. Of gnomon it
+// needs the texels and the decision, no map, grid or filter.
+#pragma once
+
+#include <gnomon/receive/receive.hpp>
+#include <gnomon/simd/isa.hpp>
+
+#include <concepts>
+
+#define GNOMON_ON on_any
+#include <gnomon/backend/simd_receive.hpp>
+#undef GNOMON_ON
+#if GNOMON_X86
+GNOMON_TARGET_BEGIN(GNOMON_AVX2)
+#define GNOMON_ON on_avx2
+#include <gnomon/backend/simd_receive.hpp>
+#undef GNOMON_ON
+GNOMON_TARGET_END
+GNOMON_TARGET_BEGIN(GNOMON_AVX512)
+#define GNOMON_ON on_avx512
+#include <gnomon/backend/simd_receive.hpp>
+#undef GNOMON_ON
+GNOMON_TARGET_END
+#endif
+
+namespace gnomon::inline GNOMON_BUILD {
+
+/// The best lanes that the processor has: asked at run time, so no compiler flag is needed.
+struct best_isa {};
+
+namespace detail {
+
+/// Lanes read and write these; a channel of a user's goes by the scalar loops.
+template <typename Channel>
+concept channel_of_lanes = std::same_as<Channel, unorm8> || std::same_as<Channel, unorm16> || std::same_as<Channel, half16> ||
+                           std::same_as<Channel, float32>;
+
+/// Does this build have these lanes?
+template <typename Isa>
+inline constexpr bool has_lanes = GNOMON_X86 + GNOMON_NEON + GNOMON_WASM > 0 || !std::same_as<Isa, best_isa>;
+
+/// What a processor must have to run them.
+template <typename Isa> inline constexpr cpu_level level_needed = cpu_level::portable;
+#if GNOMON_X86
+template <> inline constexpr cpu_level level_needed<avx2> = cpu_level::avx2;
+template <> inline constexpr cpu_level level_needed<avx512> = cpu_level::avx512;
+
+/// Each target's code goes by its own name.
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+void receive_on(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
+                const rule& r) noexcept {
+    if constexpr (std::same_as<Isa, avx512>)
+        on_avx512::receive_row<avx512>(texels, z, intensity, r);
+    else if constexpr (std::same_as<Isa, avx2>)
+        on_avx2::receive_row<avx2>(texels, z, intensity, r);
+    else
+        on_any::receive_row<Isa>(texels, z, intensity, r);
+}
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+bool receive_points_on(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
+                       strided_span<const Depth> z, strided_span<Intensity> intensity, const rule& r) noexcept {
+    if constexpr (std::same_as<Isa, avx512>)
+        return on_avx512::receive_points<avx512>(map, x, y, z, intensity, r);
+    else if constexpr (std::same_as<Isa, avx2>)
+        return on_avx2::receive_points<avx2>(map, x, y, z, intensity, r);
+    else
+        return on_any::receive_points<Isa>(map, x, y, z, intensity, r);
+}
+
+/// Calls f.template operator()<Isa>() with the lanes of a level.
+template <typename F> auto with_lanes(cpu_level level, F&& f) noexcept {
+    if (level >= cpu_level::avx512) return f.template operator()<avx512>();
+    if (level >= cpu_level::avx2) return f.template operator()<avx2>();
+    return f.template operator()<sse2>();
+}
+#else
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+void receive_on(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
+                const rule& r) noexcept {
+    on_any::receive_row<Isa>(texels, z, intensity, r);
+}
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+bool receive_points_on(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
+                       strided_span<const Depth> z, strided_span<Intensity> intensity, const rule& r) noexcept {
+    return on_any::receive_points<Isa>(map, x, y, z, intensity, r);
+}
+
+#if GNOMON_NEON
+using only_lanes = neon;
+#elif GNOMON_WASM
+using only_lanes = wasm128;
+#else // none are known of this processor: has_lanes<best_isa> is false, and nobody asks
+using only_lanes = emulated<16>;
+#endif
+template <typename F> auto with_lanes(cpu_level, F&& f) noexcept { return f.template operator()<only_lanes>(); }
+#endif
+
+/// f.template operator()<Lanes>() with the lanes that are named, or the processor's own. False, and nothing done, if f says so or the
+/// processor has no such lanes.
+template <typename Isa, typename F> bool in_lanes(F&& f) noexcept {
+    if constexpr (std::same_as<Isa, best_isa>) {
+        return with_lanes(best_lanes(), f);
+    } else {
+        const bool there = best_lanes() >= level_needed<Isa>;
+        GNOMON_ASSERT(there, "gnomon: this processor has no such lanes as Isa names; ask best_lanes(), or take simd<>");
+        return there && f.template operator()<Isa>();
+    }
+}
+
+} // namespace detail
+
+/// `receive` in lanes, with the same bits: those of the processor, reconstruct(texels, z, intensity), or named ones,
+/// reconstruct<avx2>(...). Rows of any stride, in place too, as in receive/receive.hpp.
+///
+/// In lanes go depth_mask pairs and those with a contribution: unorm8 and unorm16 with depths and intensities of any kind; half and
+/// float with float intensities. Far bounds, the other representations and channels of a user's go by the scalar loop.
+/// \pre the processor has the lanes that are named: ask best_lanes(). Without asserts the scalar loop does it if it has not.
+template <typename Isa = best_isa, texel_row Row, depth_row Depths, intensity_row Intensities>
+void reconstruct(const Row& texels, const Depths& z, Intensities&& intensity, const rule& r = {}) noexcept {
+    using Texel = texel_in<Row>;
+    using Depth = std::remove_const_t<element_in<const Depths>>;
+    const strided_span<const Texel> row{strided_span(texels)};
+    const strided_span<const Depth> depths{strided_span(z)};
+    const strided_span out(intensity);
+    using Intensity = typename decltype(out)::element_type;
+    if constexpr (detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
+                  on_any::decided_in_lanes<Texel, Depth, Intensity>)
+        if (detail::in_lanes<Isa>([&]<typename Lanes>() { return detail::receive_on<Lanes>(row, depths, out, r), true; })) return;
+    receive(row, depths, out, r);
+}
+
+/// The same for receivers anywhere: at (x[i], y[i]) in texels, blended from four.
+///
+/// In lanes go pairs of unorm8 with float intensities or codes of unorm8, on maps of 2 to 2^21 texels a side, for rules of one
+/// rounding; what does not goes by the scalar loop.
+template <typename Isa = best_isa, typename T, depth_row Depths, intensity_row Intensities>
+    requires texel_format<std::remove_const_t<T>>
+void reconstruct(image_view<T> map, strided_span<const float> x, strided_span<const float> y, const Depths& z,
+                 Intensities&& intensity, const rule& r = {}) noexcept {
+    using Texel = std::remove_const_t<T>;
+    using Depth = std::remove_const_t<element_in<const Depths>>;
+    const image_view<const Texel> texels = map;
+    const strided_span<const Depth> depths{strided_span(z)};
+    const strided_span out(intensity);
+    using Intensity = typename decltype(out)::element_type;
+    if constexpr (detail::has_lanes<Isa> && on_any::blended_in_lanes<Texel, Depth, Intensity>)
+        if (detail::in_lanes<Isa>([&]<typename Lanes>() { return detail::receive_points_on<Lanes>(texels, x, y, depths, out, r); }))
+            return;
+    receive(texels, x, y, depths, out, r);
+}
+
+} // namespace gnomon::inline GNOMON_BUILD
