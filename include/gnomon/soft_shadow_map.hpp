@@ -6,6 +6,7 @@
 #include <gnomon/receive/cull.hpp>
 
 #include <concepts>
+#include <cstdint>
 
 namespace gnomon::inline GNOMON_BUILD {
 
@@ -14,7 +15,7 @@ struct map_size {
     int width = 0;
     int height = 0;
     int tile = 32;
-    int bands = 16; ///< jobs that filter(executor) hands out at most; each has a line of scratch
+    int bands = 32; ///< jobs that filter(executor) hands out at most; each has a line of scratch
 };
 
 /// What draws casters: a callable that writes into the image it is given and returns what it touched, `texels` and `depth`.
@@ -35,7 +36,8 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
   public:
     explicit soft_shadow_map(map_size size, Backend run = {})
         : run_(run), casters_({size.width, size.height}, Texel::clear()), soft_({size.width, size.height}, Texel::clear()),
-          tiles_({size.width, size.height}, size.tile), filtered_(tiles_.tiles()), scratch_(size.width, size.bands) {}
+          tiles_({size.width, size.height}, size.tile), filtered_(tiles_.tiles()),
+          scratch_(size.width, detail::bands_of(std::int64_t{casters_.size().width} * casters_.size().height, size.bands)) {}
 
     /// How `shadow` and `receive` decide; no false shadow unless you say otherwise. It knows how often the filter rounds.
     rule decision{.caster = {.roundings = filter_roundings<Texel, Kernel>},

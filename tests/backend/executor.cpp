@@ -1,6 +1,7 @@
 // Executors: what models one, what jobs they are given, and that no result depends on them. tests/threads has them on threads.
 #include <gnomon/backend/executor.hpp>
 #include <gnomon/backend/simd.hpp>
+#include <gnomon/soft_shadow_map.hpp>
 
 #include "../support/bits.hpp"
 #include "../support/filtering.hpp"
@@ -209,4 +210,19 @@ TEST_CASE("depths and intensities in codes go through an executor as they go row
     gnomon::receive(gnomon::simd<>{}, soft.view(), z.view(), made.view(), {}, backwards{&count});
     for (int y = 0; y < 65; ++y) gnomon::receive(soft.view().row_span(y), z.view().row_span(y), expected.view().row_span(y));
     CHECK(test::differences(made, expected) == 0);
+}
+
+TEST_CASE("a soft_shadow_map hands out as many jobs as its size is worth, and no more than it was told") {
+    const auto jobs = [](gnomon::map_size size) {
+        gnomon::soft_shadow_map<rg8> map(size);
+        map.cast({0, 0, size.width, size.height}, 0.5f);
+        int count = 0;
+        map.filter(backwards{&count});
+        return count;
+    };
+    CHECK(jobs({.width = 128, .height = 127}) == 1);
+    CHECK(jobs({.width = 128, .height = 128}) == 2);
+    CHECK(jobs({.width = 1024, .height = 1024}) == 32);
+    CHECK(jobs({.width = 1024, .height = 1024, .bands = 7}) == 7);
+    CHECK(jobs({.width = 1024, .height = 1024, .bands = 0}) == 1);
 }

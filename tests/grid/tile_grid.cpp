@@ -22,9 +22,10 @@ class oracle {
     oracle(extent size, int tile)
         : size_{size.width > 0 ? size.width : 0, size.height > 0 ? size.height : 0}, tile_(tile),
           columns((size_.width + tile - 1) / tile), rows((size_.height + tile - 1) / tile),
-          set_(static_cast<std::size_t>(columns * rows)) {}
+          set_(static_cast<std::size_t>(columns * rows)), held_(set_) {}
 
     bool test(int column, int row) const { return set_[index(column, row)]; }
+    bool held(int column, int row) const { return held_[index(column, row)]; }
     int tile() const { return tile_; }
     texel_rect bounds() const { return box_; }
     int guard() const { return guard_; }
@@ -40,6 +41,7 @@ class oracle {
             hit = true;
         });
         if (hit && guard < guard_) guard_ = static_cast<int>(guard);
+        for_each_texel_of(r, 0, [&](int x, int y) { held_[index(x / tile_, y / tile_)] = true; });
     }
     bool touches(texel_rect r) const {
         bool found = false;
@@ -82,7 +84,7 @@ class oracle {
     int columns, rows;
 
   private:
-    std::vector<bool> set_;
+    std::vector<bool> set_, held_;
     texel_rect box_{};
     int guard_ = highest;
 };
@@ -91,18 +93,22 @@ class oracle {
 int differences(const tile_grid& grid, const oracle& truth) {
     int wrong = (grid.columns() != truth.columns) + (grid.rows() != truth.rows) + (grid.tile() != truth.tile());
     if (wrong != 0) return wrong;
-    int set = 0;
+    int set = 0, held = 0;
     for (int y = 0; y < truth.rows; ++y) {
-        bool occupied = false;
+        bool occupied = false, holds = false;
         for (int x = 0; x < truth.columns; ++x) {
             wrong += grid.test(x, y) != truth.test(x, y) || grid.row(y).test(x) != truth.test(x, y);
             occupied = occupied || truth.test(x, y);
             set += truth.test(x, y);
+            wrong += grid.held(y).test(x) != truth.held(x, y);
+            holds = holds || truth.held(x, y);
+            held += truth.held(x, y);
         }
         wrong += grid.occupied_rows().test(y) != occupied;
+        wrong += grid.held_rows().test(y) != holds;
     }
-    return wrong + (grid.count() != set) + (grid.empty() != (set == 0)) + (grid.bounds() != truth.bounds()) +
-           (grid.guard() != truth.guard());
+    return wrong + (grid.count() != set) + (grid.held_count() != held) + (grid.empty() != (set == 0)) +
+           (grid.bounds() != truth.bounds()) + (grid.guard() != truth.guard());
 }
 
 struct shape {

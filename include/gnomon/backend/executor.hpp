@@ -33,11 +33,20 @@ struct sequential {
 };
 static_assert(executor<sequential>);
 
+namespace detail {
+/// Fewer texels are not worth the handing out.
+inline constexpr int texels_in_a_band = 1 << 14;
+/// Bands of so many texels, of `most` that there may be.
+[[nodiscard]] constexpr int bands_of(std::int64_t texels, int most) noexcept {
+    return static_cast<int>(lesser<std::int64_t>(texels / texels_in_a_band + 1, greater(most, 1)));
+}
+} // namespace detail
+
 /// Scratch for a filter that runs in bands: one for each job that is handed out at once. Allocates in its constructor.
 template <texel_format Texel, kernel Kernel> class band_scratch {
   public:
-    /// Bands beyond the first few times the number of threads bring nothing; below 1 counts as 1.
-    explicit band_scratch(int width, int bands = 16)
+    /// Several bands a thread even out what threads are kept from; below 1 counts as 1.
+    explicit band_scratch(int width, int bands = 32)
         : bands_(static_cast<std::size_t>(greater(bands, 1)), filter_scratch<Texel, Kernel>(width)) {}
     [[nodiscard]] int size() const noexcept { return static_cast<int>(bands_.size()); }
     [[nodiscard]] filter_scratch<Texel, Kernel>& operator[](int band) noexcept { return bands_[static_cast<std::size_t>(band)]; }
@@ -54,17 +63,13 @@ template <typename On> consteval bool executor_is_callable() {
     return executor<On>;
 }
 
-/// Fewer texels are not worth the handing out.
-inline constexpr int texels_in_a_band = 1 << 14;
 /// Rows that a band is rounded to, for the lanes' sake.
 inline constexpr int rows_in_a_band = 8;
 
 /// The regions that walk(f) hands out, shared among bands of about the same area.
 template <typename Walk> class band_cut {
   public:
-    band_cut(const Walk& walk, int most) noexcept
-        : walk_(walk), texels_(texels_in(walk)),
-          bands_(static_cast<int>(lesser<std::int64_t>(texels_ / texels_in_a_band + 1, greater(most, 1)))) {}
+    band_cut(const Walk& walk, int most) noexcept : walk_(walk), texels_(texels_in(walk)), bands_(bands_of(texels_, most)) {}
 
     [[nodiscard]] int size() const noexcept { return bands_; }
     /// Calls f(texel_rect) for what belongs to a band: whole rows of a region; each row belongs to one.
