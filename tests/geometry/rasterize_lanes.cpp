@@ -288,3 +288,52 @@ TEST_CASE(
     CHECK(tried > 200);
     CHECK(differ > 100);
 }
+
+TEST_CASE("a triangle that is a line until its corners are snapped has one depth where it covers a centre, in lanes too") {
+    dice roll{std::mt19937_64(37)};
+    const light_frame light = plain_frame({1024, 1024});
+    mesh_data m;
+    for (int i = 0; i < 2000; ++i) {
+        const auto quarters = [&roll] { return static_cast<double>(static_cast<int>(roll(-100000.0, 100000.0))) + 0.25; };
+        const glm::dvec3 from(130000.0, 130000.0, roll(0.0, 1.0)), along(quarters(), quarters(), roll(0.0, 1.0));
+        m.add(from, from + along, from + along * 0.5);
+    }
+    const record expected = draw(scalar{}, m.mesh(), light, everywhere, faces::both);
+    CHECK(expected.texels.size() > 100);
+    for_each_isa([&]<typename Isa>() { CHECK(draw(simd<Isa>{}, m.mesh(), light, everywhere, faces::both) == expected); });
+}
+
+TEST_CASE("a sliver over half a million texels, of an area that doubles do not tell from none, covers the centre on its edge in "
+          "lanes too") {
+    dice roll{std::mt19937_64(38)};
+    const light_frame light = plain_frame({64, 64});
+    std::size_t covered = 0;
+    for (int i = 0; i < 200; ++i) {
+        // Its edge from a to b has a centre in its middle, and (b - a) / 2 = (p, q) and c - a span the least area there is.
+        const auto p = static_cast<std::int64_t>(roll(0x1p26, 0x1p27)), q = static_cast<std::int64_t>(roll(0x1p26, 0x1p27));
+        const std::int64_t inverse = inverse_of(p, q), c_y = q - inverse; // p c_y - q c_x = -1: to the right
+        if (inverse == 0) continue;
+        const glm::dvec3 middle(128.0 + 256.0 * 20, 128.0 + 256.0 * 30, 0.5), half(p, q, 0.0);
+        const glm::dvec3 a = middle - half, b = middle + half, c = a + glm::dvec3((p * c_y + 1) / q, c_y, 0.0);
+        mesh_data m;
+        m.add(glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1));
+        const glm::dmat4 corners(glm::dvec4(a, 0.0), glm::dvec4(b, 0.0), glm::dvec4(c, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
+        const record expected = draw(scalar{}, m.mesh(corners), light, everywhere, faces::both);
+        covered += expected.texels.size();
+        for_each_isa(
+            [&]<typename Isa>() { CHECK(draw(simd<Isa>{}, m.mesh(corners), light, everywhere, faces::both) == expected); });
+    }
+    CHECK(covered > 20);
+}
+
+TEST_CASE("a triangle whose depth is infinite at a corner is left out, in lanes too") {
+    const light_frame plain = plain_frame({64, 64});
+    glm::dmat4 deep = plain.matrix();
+    deep[2][2] = 1e300;
+    const light_frame light(deep, {64, 64}, 1.0, 1.0);
+    mesh_data m;
+    m.add(glm::dvec3(0.0, 0.0, 1e20), glm::dvec3(9000.0, 100.0, 0.0), glm::dvec3(100.0, 9000.0, 0.0));
+    CHECK(draw(scalar{}, m.mesh(), plain, everywhere, faces::both).texels.size() > 500);
+    CHECK(draw(scalar{}, m.mesh(), light, everywhere, faces::both).texels.empty());
+    for_each_isa([&]<typename Isa>() { CHECK(draw(simd<Isa>{}, m.mesh(), light, everywhere, faces::both).texels.empty()); });
+}

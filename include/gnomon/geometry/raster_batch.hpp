@@ -41,7 +41,7 @@ template <typename Isa> struct triangle_setup {
         std::uint32_t plain = 0; ///< which are cut by no plane, not too large, and not seen edge-on
         std::uint32_t few = 0;   ///< which have few rows, of one piece each
         numbers x0, y0, x1, y1;  ///< the centres in the box around them, of the target
-        numbers edge[3], per_row[3], per_edge[3], lower_limit[3], upper_limit[3];
+        numbers edge[3], per_row[3], per_edge[3], limit[3];
         numbers x, y, a, b, c, nearest, farthest, area;
         numbers begin[few_rows], end[few_rows], on_row[few_rows]; ///< of triangles with few rows
     };
@@ -99,7 +99,8 @@ template <typename Isa> struct triangle_setup {
     /// The edges, as `cut_rows` wants them. All but the inverse are whole numbers, and exact.
     ///
     /// dx (y - a.y) - dy (x - a.x) is positive on the inner side; it is kept for the first centre of the box, and for a row more. Times
-    /// 1 / 256 dy that is the column where the edge is met. It bounds a row from below or from above, as dy says.
+    /// 1 / 256 dy that is the column where the edge is met, and where a row begins or ends, as the sign of dy says. If dy = 0 it bounds no
+    /// row: the column is 0, and no end.
     GNOMON_LANES_VOID void set_up_edges(batch& b, const doubles (&x)[3], const doubles (&y)[3]) noexcept {
         const doubles zero = Isa::repeat(0.0), one = Isa::repeat(1.0), texel = Isa::repeat(256.0), half = Isa::repeat(128.0);
         const doubles turn = Isa::subtract(Isa::multiply(Isa::subtract(x[1], x[0]), Isa::subtract(y[2], y[0])),
@@ -115,16 +116,14 @@ template <typename Isa> struct triangle_setup {
                  Isa::subtract(Isa::multiply(dx, Isa::subtract(centre_y, y[i])), Isa::multiply(dy, Isa::subtract(centre_x, x[i]))));
             keep(b.per_row[i], Isa::multiply(dx, texel));
             keep(b.per_edge[i], Isa::divide(per_column, Isa::larger(Isa::multiply(per_column, per_column), one))); // 0 for 0
-            keep(b.lower_limit[i], limit(Isa::subtract(Isa::repeat(-0.5), dy)));
-            keep(b.upper_limit[i], limit(Isa::subtract(Isa::repeat(0.5), dy)));
+            keep(b.limit[i], beyond(Isa::subtract(Isa::repeat(0.5), dy)));
         }
         b.drawn &= ~b.plain | Isa::greater_bits(turn, zero) | Isa::greater_bits(zero, turn); // else there is no centre in it
     }
     /// Beyond all columns, on the side of the sign of `a`, half a whole number.
-    GNOMON_LANES doubles limit(doubles a) noexcept {
-        const doubles beyond = Isa::repeat(2.0 * most);
-        return Isa::smaller(Isa::larger(Isa::multiply(a, Isa::repeat(4.0 * most)), Isa::subtract(Isa::repeat(0.0), beyond)),
-                            beyond);
+    GNOMON_LANES doubles beyond(doubles a) noexcept {
+        return Isa::smaller(Isa::larger(Isa::multiply(a, Isa::repeat(4.0 * most)), Isa::repeat(-2.0 * most)),
+                            Isa::repeat(2.0 * most));
     }
 
     /// detail::depth_surface.
@@ -155,15 +154,15 @@ template <typename Isa> struct triangle_setup {
     }
 
     /// Cuts rows of a box by an edge. The edge names one column on every row, the first whose centre is not left of it: see scan.hpp.
-    /// Where it is met is a fraction of 256 dy, so it is on a whole column or at least 2^-29 after it; and known to 2^-38, so that less
-    /// 2^-30 it is rounded up rightly.
-    GNOMON_LANES_VOID void cut_rows(doubles& begin, doubles& end, doubles edge, doubles per_edge, doubles lower_limit,
-                                    doubles upper_limit) noexcept {
+    /// Where it is met is a fraction of 256 dy: on a whole column, or at least 2^-29 after it. The product is within 2^-40 of that, which
+    /// the rounding of a number near 16384, to 2^-39, takes away; so it is rounded up rightly.
+    /// `limit` says which side it bounds: beyond all columns before, it is the end, beyond them behind, the beginning.
+    GNOMON_LANES_VOID void cut_rows(doubles& begin, doubles& end, doubles edge, doubles per_edge, doubles limit) noexcept {
         constexpr double bias = 4.0 * most;
         const doubles met = Isa::smaller(Isa::larger(Isa::multiply(edge, per_edge), Isa::repeat(-1.0)), Isa::repeat(2.0 * most));
-        const doubles column = Isa::subtract(Isa::repeat(bias), Isa::truncate(Isa::subtract(Isa::repeat(bias + 0x1p-30), met)));
-        begin = Isa::larger(begin, Isa::smaller(column, lower_limit));
-        end = Isa::smaller(end, Isa::larger(column, upper_limit));
+        const doubles column = Isa::subtract(Isa::repeat(bias), Isa::truncate(Isa::subtract(Isa::repeat(bias), met)));
+        begin = Isa::larger(begin, Isa::smaller(column, limit));
+        end = Isa::smaller(end, Isa::larger(column, limit));
     }
 
     /// The rows of triangles that have few.
@@ -178,7 +177,7 @@ template <typename Isa> struct triangle_setup {
             for (int i = 0; i < 3; ++i)
                 cut_rows(begin, end,
                          Isa::add(Isa::load(b.edge[i].lane), Isa::multiply(Isa::load(b.per_row[i].lane), whole_number(row))),
-                         Isa::load(b.per_edge[i].lane), Isa::load(b.lower_limit[i].lane), Isa::load(b.upper_limit[i].lane));
+                         Isa::load(b.per_edge[i].lane), Isa::load(b.limit[i].lane));
             keep(b.begin[row], begin);
             keep(b.end[row], end);
             const doubles centres = Isa::add(y0, Isa::repeat(static_cast<double>(row) + 0.5));

@@ -103,7 +103,7 @@ template <typename Isa> struct rasterizer {
             for (int i = 0; i < 3; ++i) {
                 const auto of = [k](const numbers& n) { return Isa::repeat(n.lane[k]); };
                 triangles::cut_rows(begin, end, Isa::add(of(b.edge[i]), Isa::multiply(rows, of(b.per_row[i]))), of(b.per_edge[i]),
-                                    of(b.lower_limit[i]), of(b.upper_limit[i]));
+                                    of(b.limit[i]));
             }
             numbers from, to, on_row;
             triangles::keep(from, begin);
