@@ -93,6 +93,19 @@ static_assert(rg8::depth_index == 0 && rg8::mask_index == 1 && rg8::far_index ==
 
 // At compile time, where an index outside of the channels does not compile.
 static_assert(rg8::clear() == rg8{} && rga8::clear() == rga8{} && rg8::caster(0.0f) == rg8{{255, 255}});
+template <typename Texel> constexpr bool comes_back(Texel texel) {
+    using sum = typename Texel::linear_sum;
+    sum sums[static_cast<std::size_t>(Texel::channels)];
+    for (int c = 0; c < Texel::channels; ++c) sums[c] = texel.template linear<sum>(c);
+    return Texel::from_linear(sums, sum{1}) == texel;
+}
+static_assert(comes_back(rg8{{100, 200}}) && comes_back(rg32f{{0.25f, 0.5f}}) && comes_back(tm8{{100, 200}}));
+constexpr rgb8 a_caster_twice() {
+    rgb8 t = rgb8::caster(0.2f);
+    t.cast(rgb8::caster(0.2f));
+    return t;
+}
+static_assert(a_caster_twice() == rgb8::caster(0.2f));
 constexpr rgba8 a_bounded_caster() {
     rgba8 t = rgba8::clear();
     t.cast(rgba8::caster(0.8f, 1.0f));
