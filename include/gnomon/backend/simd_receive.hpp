@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 
 #ifdef GNOMON_ON
@@ -23,9 +24,9 @@ inline constexpr bool byte_pairs =
     decidable_pairs<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, unorm8>;
 
 /// One register of receivers at a time. A receiver is shadowed iff e > m (1-z), see receive/decide.hpp: of a biased pair and depth, the
-/// sign of a product and a sum, and exact wherever `decided` says that it is. What is left goes by the scalar loop: with float depths
-/// no codes, and no pair with 0 <= e <= m and m > 2^-50; with depths in codes one receiver in a million, and who is moved behind every
-/// caster.
+/// sign of a product and a sum, and exact wherever `decided` says that it is. What is left goes by the scalar loop. With float depths
+/// that is no code, and floats only if m <= 2^-50 or z is moved by more than the range; with depths in codes it is one receiver in a
+/// million, and who is moved behind every caster.
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct decision {
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
@@ -41,13 +42,14 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
 
     [[nodiscard]] static decision of(const rule& r) noexcept {
         const auto steps = bias_steps<Texel>::of(r.caster);
+        constexpr float nothing = std::numeric_limits<float>::infinity();
         const float moved = std::same_as<Depth, float> ? steps.nearer : static_cast<float>(codes_towards_light<Texel>(r.caster));
         return {Isa::repeat(static_cast<float>(steps.depth_less)),
                 Isa::repeat(static_cast<float>(steps.depth_share)),
                 Isa::repeat(static_cast<float>(steps.mask_more)),
                 Isa::repeat(static_cast<float>(steps.mask_share)),
                 Isa::repeat(moved),
-                Isa::repeat(whole_codes ? 0.0f : 0x1p-50f),
+                Isa::repeat(whole_codes ? 0.0f : (moved > 1.0f && std::same_as<Depth, float> ? nothing : 0x1p-50f)),
                 r.caster.towards != bias_towards::light || r.caster.roundings < 1,
                 &r};
     }
@@ -55,12 +57,15 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     GNOMON_LANES floats codes(const storage* texels, int index) noexcept {
         return Isa::template codes_of<channel_type, Texel::channels>(texels, index);
     }
-    /// (a + more) share, as `apply` has it.
-    GNOMON_LANES floats moved(floats a, const floats& share) noexcept {
-        if constexpr (whole_codes) return a; // the share is 1
-        floats product = Isa::multiply(a, share);
-        Isa::settle(product); // nothing that is added to it may be fused with it
-        return product;
+    /// a share, as `apply` has it: rounded before anything is added, which g++ would fuse with it from -O2 on.
+    GNOMON_LANES floats moved(const floats& a, const floats& share) noexcept {
+        if constexpr (whole_codes) {
+            return a; // the share is 1
+        } else {
+            floats product = Isa::multiply(a, share);
+            Isa::settle(product);
+            return product;
+        }
     }
 
     /// m z + (e-m) > 0. Codes, and the halves they are biased by, keep e-m exact, and the product is asked for its sign.
@@ -73,19 +78,18 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         if (by.by_rule->lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
         return true;
     }
-    /// For z < 1/2 the same, where e-m is exact if e >= m/2, and if not, m z < m/2 is less than it either way; else m (z-1) + e > 0, where
-    /// z-1 is exact up to 2^24, and beyond that everything is behind every caster.
+    /// For z < 1/2 the same: e-m is exact if m/2 <= e <= 2m, and if e is less, m z < m/2 is less than m-e either way, if more, all from
+    /// z = -1 on are shadowed. Else m (z-1) + e > 0, where z-1 is exact up to 2^24, and beyond that everything is behind every caster.
     GNOMON_LANES bool decided_floats(const decision& by, const floats& e, const floats& m, const masks& there, const float* depths,
                                      masks& shadowed) noexcept {
-        const floats depth = Isa::load(depths), zero = Isa::repeat(0.0f), half = Isa::repeat(0.5f), least = Isa::repeat(0x1p-50f);
+        const floats depth = Isa::load(depths), zero = Isa::repeat(0.0f), half = Isa::repeat(0.5f);
         const floats z = Isa::subtract(depth, by.nearer);
         const floats beyond = Isa::subtract(z, Isa::keep(Isa::not_greater(half, z), Isa::repeat(1.0f)));
         const floats rest = Isa::subtract(e, Isa::keep(Isa::greater(half, z), m));
         shadowed = Isa::both(Isa::positive(m, beyond, rest), Isa::both(there, Isa::greater(depth, zero)));
         if (by.by_rule->lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
-        const bool told =
-            !Isa::any(Isa::both(there, Isa::greater(e, m))) && !Isa::any(Isa::both(there, Isa::not_greater(m, least)));
-        return told && !(by.exact_zero && Isa::any(Isa::both(Isa::greater(z, zero), Isa::greater(least, z))));
+        return !Isa::any(Isa::both(there, Isa::not_greater(m, by.least_mask))) &&
+               !(by.exact_zero && Isa::any(Isa::both(Isa::greater(z, zero), Isa::greater(Isa::repeat(0x1p-50f), z))));
     }
     /// m z + (e-m) 65535 > 0, z in codes. Three roundings are wrong by 3 * 2^-24 * 65535 m < m/64 at most where the two cancel; so
     /// within m/16 of nothing the sum says nothing.
