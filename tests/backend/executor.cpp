@@ -213,9 +213,9 @@ TEST_CASE("depths and intensities in codes go through an executor as they go row
 }
 
 TEST_CASE("a soft_shadow_map hands out as many jobs as its size is worth, and no more than it was told") {
-    const auto jobs = [](gnomon::map_size size) {
-        gnomon::soft_shadow_map<rg8> map(size);
-        map.cast({0, 0, size.width, size.height}, 0.5f);
+    const auto jobs = [](gnomon::map_size of) {
+        gnomon::soft_shadow_map<rg8> map(of);
+        map.cast({0, 0, of.width, of.height}, 0.5f);
         int count = 0;
         map.filter(backwards{&count});
         return count;
