@@ -34,11 +34,6 @@ template <typename Texel, kernel... Kernels> std::vector<filter<Texel>> filters(
     return {{&test::dense<Kernels, Texel>, filter_roundings<Texel, Kernels>, test::taps_of<Kernels>()}...};
 }
 
-/// Three shapes at each radius from 1 on.
-template <typename Texel, int... Radii> std::vector<filter<Texel>> shapes(std::integer_sequence<int, Radii...>) {
-    return filters<Texel>(test::kernels<box<Radii + 1>..., tent<Radii + 1>..., gaussian<Radii + 1>...>{});
-}
-
 /// No false shadow at `nearest(x, y)` and no false light behind `farthest(x, y)`, after the library's filter and after two roundings.
 template <typename Texel, typename Nearest, typename Farthest>
 void try_map(const filter<Texel>& f, const image<Texel>& map, const Nearest& nearest, const Farthest& farthest, sweep& wrong) {
@@ -118,6 +113,13 @@ TEST_CASE_TEMPLATE(
 }
 
 #ifdef GNOMON_EXHAUSTIVE // takes long to compile
+namespace {
+/// Three shapes at each radius from 1 on.
+template <typename Texel, int... Radii> std::vector<filter<Texel>> shapes(std::integer_sequence<int, Radii...>) {
+    return filters<Texel>(test::kernels<box<Radii + 1>..., tent<Radii + 1>..., gaussian<Radii + 1>...>{});
+}
+} // namespace
+
 TEST_CASE_TEMPLATE("exhaustive: behind every filter of radius 1 to 16 no receiver at or before the nearest caster is shadowed" *
                        doctest::skip(),
                    Texel, rg8, rg16, rg16f, rg32f, tm8, tm16) {
