@@ -295,7 +295,7 @@ TEST_CASE("a triangle that is a line until its corners are snapped has one depth
     mesh_data m;
     for (int i = 0; i < 2000; ++i) {
         const auto quarters = [&roll] { return static_cast<double>(static_cast<int>(roll(-100000.0, 100000.0))) + 0.25; };
-        const glm::dvec3 from(130000.0, 130000.0, roll(0.0, 1.0)), along(quarters(), quarters(), roll(0.0, 1.0));
+        const glm::dvec3 from(130000.0, 130000.0, roll(0.0, 1.0)), along(quarters(), quarters(), roll(-1.0, 1.0));
         m.add(from, from + along, from + along * 0.5);
     }
     const record expected = draw(scalar{}, m.mesh(), light, everywhere, faces::both);
@@ -317,6 +317,7 @@ TEST_CASE("a sliver over half a million texels, of an area that doubles do not t
         const glm::dvec3 a = middle - half, b = middle + half, c = a + glm::dvec3((p * c_y + 1) / q, c_y, 0.0);
         mesh_data m;
         m.add(glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1));
+        m.add(glm::dvec3(0, 0, 0), glm::dvec3(0.5, 0.5, 0), glm::dvec3(0.5, 0.5, 0x1p-16)); // a small one beside it
         const glm::dmat4 corners(glm::dvec4(a, 0.0), glm::dvec4(b, 0.0), glm::dvec4(c, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
         const record expected = draw(scalar{}, m.mesh(corners), light, everywhere, faces::both);
         covered += expected.texels.size();
