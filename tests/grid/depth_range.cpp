@@ -55,15 +55,17 @@ TEST_CASE("each tile knows the depths of the casters around it, frame after fram
         for (int i = 0; i < 30; ++i) {
             const texel_rect r = roll.rect({90, 75}, 20);
             const float z = roll.unit();
-            bool expected = false;
+            bool expected = false, at_any_depth = false;
             const texel_rect asked = intersection(r, tiles.tiles().bounds());
             for (int y = 0; y < tiles.tiles().rows(); ++y)
                 for (int x = 0; x < tiles.tiles().columns(); ++x) {
                     const texel_rect tile = tiles.tiles().texels_of({x, y, x + 1, y + 1});
                     const depth_interval depth = depth_of(casters, tile);
-                    expected = expected || (!intersection(asked, tile).empty() && !depth.empty() && depth.nearest < z);
+                    const bool touched = !intersection(asked, tile).empty() && !depth.empty();
+                    at_any_depth = at_any_depth || touched;
+                    expected = expected || (touched && depth.nearest < z);
                 }
-            wrong += tiles.touches(r, z) != expected;
+            wrong += tiles.touches(r, z) != expected || tiles.touches(r) != at_any_depth;
         }
         CHECK(wrong == 0);
     }

@@ -278,12 +278,12 @@ TEST_CASE_TEMPLATE("a mean of two texels is rounded once: whole codes to nearest
 TEST_CASE("the far bound of a ratio is a depth to a filter and its contribution is not") {
     const test::ratio_rgba8 a{{200, 100, 150, 60}}, b{{100, 50, 40, 20}};
     std::uint64_t sums[4];
-    for (int c = 0; c < 4; ++c) sums[c] = a.linear<std::uint64_t>(c) + b.linear<std::uint64_t>(c);
-    CHECK(sums[0] == 200 * 100 + 100 * 50);
-    CHECK(sums[1] == 255 * (100 + 50));
-    CHECK(sums[2] == 150 * 100 + 40 * 50);
-    CHECK(sums[3] == 255 * (60 + 20));
-    CHECK(test::ratio_rgba8::from_linear(sums, std::uint64_t{2}) == test::ratio_rgba8{{166, 75, 113, 40}}); // 166.7, 113.3: down
+    for (int c = 0; c < 4; ++c) sums[c] = 2 * a.linear<std::uint64_t>(c) + b.linear<std::uint64_t>(c);
+    CHECK(sums[0] == 2 * 200 * 100 + 100 * 50);
+    CHECK(sums[1] == 255 * (2 * 100 + 50));
+    CHECK(sums[2] == 2 * 150 * 100 + 40 * 50);
+    CHECK(sums[3] == 255 * (2 * 60 + 20));
+    CHECK(test::ratio_rgba8::from_linear(sums, std::uint64_t{3}) == test::ratio_rgba8{{180, 83, 128, 47}}); // 83.3 and 46.7
     CHECK(test::equal(test::ratio_rgba8::linear_scale, 255.0 * 255.0));
 }
 
