@@ -71,7 +71,8 @@ template <texel_format Texel, kernel Kernel> struct sums {
     }();
 
     template <typename Number> [[nodiscard]] static constexpr Number add(Number sum, Number w, Number v) noexcept {
-        if constexpr (in_floats) return static_cast<Number>(static_cast<float>(sum) + static_cast<float>(w * v)); // w v is exact
+        // w v is exact, and rounded by `store` in a way that no compiler fuses with the sum
+        if constexpr (in_floats) return static_cast<Number>(static_cast<float>(sum) + float32::store(static_cast<double>(w * v)));
         return sum + w * v;
     }
     [[nodiscard]] static constexpr element between(element sum) noexcept {
