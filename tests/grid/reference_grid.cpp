@@ -106,6 +106,9 @@ struct engine {
     bool& at(long x, long y) { return set[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)]; }
 };
 
+static_assert(test::same_bits(real_rect{}.x0, 0.0) && test::same_bits(real_rect{}.y0, 0.0) &&
+              test::same_bits(real_rect{}.x1, 0.0) && test::same_bits(real_rect{}.y1, 0.0));
+
 nlohmann::json vectors() {
     std::ifstream file(GNOMON_TEST_DATA "/tiles.json");
     REQUIRE(file);
