@@ -250,6 +250,12 @@ TEST_CASE("infinite and huge rectangles cover the map, and no setting overflows"
         }
 }
 
+TEST_CASE("the margin is the engine's 2 texels if none is given") {
+    reference_grid grid({512, 512}, 1); // tiles of 16 texels
+    CHECK(grid.cast({20, 20, 44, 44}));
+    CHECK(rects_of(grid) == std::vector<tile_rect>{{1, 1, 4, 4}}); // 16 to 48, inclusive
+}
+
 TEST_CASE("a radius or a margin beyond 2^20 counts as 2^20") {
     for (const int setting : {1 << 20, (1 << 20) + 1, 2147483647}) { // tiles of 2^17 texels
         reference_grid wide({1 << 22, 64}, setting, 0), margin({1 << 22, 64}, 0, setting);
