@@ -14,6 +14,8 @@ namespace {
 using gnomon::texel_rect;
 using gnomon::detail::fixed_point;
 
+static_assert(fixed_point{}.x == 0 && fixed_point{}.y == 0);
+
 std::int64_t turn(fixed_point a, fixed_point b, fixed_point p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
 bool owns(fixed_point a, fixed_point b, fixed_point p) { // y grows downwards, and the inside is where turn > 0

@@ -106,6 +106,9 @@ struct engine {
     bool& at(long x, long y) { return set[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)]; }
 };
 
+static_assert(test::same_bits(real_rect{}.x0, 0.0) && test::same_bits(real_rect{}.y0, 0.0) &&
+              test::same_bits(real_rect{}.x1, 0.0) && test::same_bits(real_rect{}.y1, 0.0));
+
 nlohmann::json vectors() {
     std::ifstream file(GNOMON_TEST_DATA "/tiles.json");
     REQUIRE(file);
@@ -245,6 +248,12 @@ TEST_CASE("infinite and huge rectangles cover the map, and no setting overflows"
             CHECK(grid.tiles().count() == 32 * 32);
             CHECK(grid.blur_scissor() == texel_rect{2, 2, 510, 510});
         }
+}
+
+TEST_CASE("the margin is the engine's 2 texels if none is given") {
+    reference_grid grid({512, 512}, 1); // tiles of 16 texels
+    CHECK(grid.cast({20, 20, 44, 44}));
+    CHECK(rects_of(grid) == std::vector<tile_rect>{{1, 1, 4, 4}}); // 16 to 48, inclusive
 }
 
 TEST_CASE("a radius or a margin beyond 2^20 counts as 2^20") {
