@@ -120,6 +120,7 @@ TEST_CASE_TEMPLATE("a ratio of two sums is the oracle's in lanes too, where the 
     using gnomon::on_any::filtered_in_lanes;
     CHECK((filtered_in_lanes<binomial<4>, Texel> && filtered_in_lanes<box<256>, gnomon::tm8>));
     CHECK((filtered_in_lanes<gaussian<4>, gnomon::tm8> && !filtered_in_lanes<gaussian<4>, gnomon::tm16>));
+    CHECK(filtered_in_lanes<gnomon::fast<gaussian<4>>, gnomon::tm16>);
     dice roll(406);
     image<Texel> map({150, 23});
     fill_with_bits(roll, map.view());
@@ -129,6 +130,7 @@ TEST_CASE_TEMPLATE("a ratio of two sums is the oracle's in lanes too, where the 
         CHECK(differing<Isa, binomial<4>>(image_view<const Texel>(map.view()), whole(map.size())) == 0);
         CHECK(differing<Isa, gaussian<3>>(image_view<const Texel>(map.view()), {5, 2, 131, 23}) == 0);
         CHECK(differing<Isa, box<3>>(image_view<const Texel>(map.view()), whole(map.size())) == 0);
+        CHECK(differing<Isa, gnomon::fast<gaussian<4>>>(image_view<const Texel>(map.view()), whole(map.size())) == 0);
     });
 }
 

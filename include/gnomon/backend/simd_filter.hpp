@@ -418,9 +418,11 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct word_filter : 
 
 /// What lanes filter: premultiplied texels, and pairs of a ratio whose sums, of products of two codes, are exact in double.
 template <kernel Kernel, texel_format Texel>
-inline constexpr bool filtered_in_lanes =
-    Kernel::radius <= 256 && (Texel::representation_type::premultiplied ||
-                              (Texel::channels == 2 && Texel::linear_scale * Kernel::total * Kernel::total < 0x1p53));
+inline constexpr bool filtered_in_lanes = [] {
+    constexpr double total = detail::sums<Texel, Kernel>::weights_of::total;
+    constexpr bool exact = Texel::channels == 2 && Texel::linear_scale * total * total < 0x1p53;
+    return Kernel::radius <= 256 && (Texel::representation_type::premultiplied || exact);
+}();
 
 /// What serves a texel and a kernel best. All give the same bits where several can.
 template <typename Isa, kernel Kernel, texel_format Texel> consteval auto choose_filter() {
