@@ -78,7 +78,7 @@ TEST_CASE_TEMPLATE("maps of nothing, of one texel, of one row, and smaller than 
                    gnomon::rgba16, gnomon::rgba32f, gnomon::tm8, test::paper8) {
     for (const extent size : {extent{0, 0}, {0, 9}, {9, 0}, {-5, -7}, {1, 1}, {65, 1}, {1, 65}, {5, 4}})
         for (const int tile : {1, 32, highest}) {
-            soft_shadow_map<Texel, gnomon::gaussian<16>> map({size.width, size.height, tile});
+            soft_shadow_map<Texel, gnomon::gaussian<16>, gnomon::scalar> map({size.width, size.height, tile});
             for (int frame = 0; frame < 2; ++frame) {
                 map.clear();
                 map.cast({-3, -3, 99, 99}, 0.5f);
