@@ -1,6 +1,8 @@
 """gnomon.hpp leaves no macros behind but GNOMON_*, and changes none of those that the standard headers define."""
 import headers
 
+ONLY = {"intrin.h": "defined(_MSC_VER)", "arm_neon.h": "defined(__ARM_NEON)", "wasm_simd128.h": "defined(__wasm_simd128__)"}
+
 
 def macros(compiler, include, source):
     text = headers.preprocess(compiler, include, source, "-dM")
@@ -9,8 +11,8 @@ def macros(compiler, include, source):
 
 def check(include, compiler):
     ours = headers.closure(include, "gnomon/gnomon.hpp")
-    standard = sorted({n for h in ours for _, n in headers.includes(include, h) if not n.startswith("gnomon/") and n != "intrin.h"}) # MSVC alone has that
-    before = macros(compiler, include, "".join(f"#if __has_include(<{n}>)\n#include <{n}>\n#endif\n" for n in standard))
+    standard = sorted({n for h in ours for _, n in headers.includes(include, h) if not n.startswith("gnomon/")})
+    before = macros(compiler, include, "".join(f"#if __has_include(<{n}>) && {ONLY.get(n, 1)}\n#include <{n}>\n#endif\n" for n in standard))
     after = macros(compiler, include, "#include <gnomon/gnomon.hpp>\n")
     return [f"gnomon.hpp leaves {line}" for name, line in sorted(after.items())
             if before.get(name) != line and not name.startswith("GNOMON_")] + \
