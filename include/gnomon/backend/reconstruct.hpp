@@ -95,16 +95,20 @@ using only_lanes = emulated<16>;
 template <typename F> auto with_lanes(cpu_level, F&& f) noexcept { return f.template operator()<only_lanes>(); }
 #endif
 
+/// Has the processor the lanes that are named? Those it has are always there.
+template <typename Isa> [[nodiscard]] bool lanes_are_there() noexcept {
+    const bool there = level_needed<Isa> == cpu_level::portable || best_lanes() >= level_needed<Isa>;
+    GNOMON_ASSERT(there, "gnomon: this processor has no such lanes as are named; ask best_lanes(), or take simd<>");
+    return there;
+}
+
 /// f.template operator()<Lanes>() with the lanes that are named, or the processor's own. False, and nothing done, if f says so or the
 /// processor has no such lanes.
 template <typename Isa, typename F> bool in_lanes(F&& f) noexcept {
-    if constexpr (std::same_as<Isa, best_isa>) {
+    if constexpr (std::same_as<Isa, best_isa>)
         return with_lanes(best_lanes(), f);
-    } else {
-        const bool there = best_lanes() >= level_needed<Isa>;
-        GNOMON_ASSERT(there, "gnomon: this processor has no such lanes as Isa names; ask best_lanes(), or take simd<>");
-        return there && f.template operator()<Isa>();
-    }
+    else
+        return lanes_are_there<Isa>() && f.template operator()<Isa>();
 }
 
 } // namespace detail

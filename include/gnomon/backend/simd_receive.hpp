@@ -263,7 +263,7 @@ void receive_row(strided_span<const Texel> texels, strided_span<const Depth> z, 
     }
 }
 
-/// One register of receivers anywhere on a map of pairs of bytes. Both texels of a row come in one gather of 32 bits; a blend is a whole
+/// One register of receivers anywhere on a map of pairs of bytes. Both texels of a row come in one load of 32 bits; a blend is a whole
 /// number, the code times 65536, below 2^24 and so exact in float, as is all that is asked of it.
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct blended_decision {
     using ints = typename Isa::ints;
@@ -297,7 +297,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     floats e, m, z;                     ///< the bias: what pair and receiver are moved by
     bool lit_beyond;
 
-    /// Biases of one rounding keep the pair below 2^24. Offsets are of 32 bits, and a row has two texels for a gather.
+    /// Biases of one rounding keep the pair below 2^24. Offsets are of 32 bits, and a row has two texels for a load.
     [[nodiscard]] static bool serves(image_view<const Texel> map, const rule& r) noexcept {
         constexpr int most = 1 << 21;
         const std::ptrdiff_t row = map.stride() < 0 ? -map.stride() : map.stride();

@@ -62,15 +62,12 @@ template <typename Texel> struct bounds {
 
 /// f.template operator()<Lanes>() for the lanes that Isa names; for SSE2 if the processor has no such lanes.
 template <typename Isa, typename F> auto for_lanes(F&& f) noexcept {
-    if constexpr (std::same_as<Isa, best_isa>) {
+    if constexpr (std::same_as<Isa, best_isa>)
         return with_lanes(best_lanes(), f);
-    } else if constexpr (level_needed<Isa> == cpu_level::portable) {
+    else if constexpr (level_needed<Isa> == cpu_level::portable)
         return f.template operator()<Isa>();
-    } else {
-        const bool there = best_lanes() >= level_needed<Isa>;
-        GNOMON_ASSERT(there, "gnomon: this processor has no such lanes as simd<Isa> names; ask best_lanes(), or take simd<>");
-        return there ? f.template operator()<Isa>() : f.template operator()<sse2>();
-    }
+    else
+        return lanes_are_there<Isa>() ? f.template operator()<Isa>() : f.template operator()<sse2>();
 }
 
 /// Are these texels encoded in lanes?

@@ -164,7 +164,7 @@ struct avx2 {
         } else if constexpr (std::same_as<Channel, half16> && Channels == 1) {
             return _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
         } else if constexpr (std::same_as<Channel, unorm16> && Channels == 1) {
-            return _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
+            return numbers(widen32(from));
         } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
             return channel_of_pairs(load(from), load(from + 8), c);
         } else if constexpr (std::same_as<Channel, half16> && Channels == 2) {
@@ -220,20 +220,12 @@ struct avx2 {
         }
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
-        if constexpr (Channel::whole_codes) {
-            const ints whole = _mm256_cvttps_epi32(a);
-            const __m128i words = _mm_packus_epi32(_mm256_castsi256_si128(whole), _mm256_extracti128_si256(whole, 1));
-            if constexpr (std::same_as<Channel, unorm8>) {
-                _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_packus_epi16(words, words));
-            } else {
-                _mm_storeu_si128(reinterpret_cast<__m128i*>(to), words);
-            }
-        } else {
-            if constexpr (std::same_as<Channel, half16>)
-                _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm256_cvtps_ph(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
-            else
-                store(to, add(a, _mm256_setzero_ps()));
-        }
+        if constexpr (Channel::whole_codes)
+            store_low(to, _mm256_cvttps_epi32(a));
+        else if constexpr (std::same_as<Channel, half16>)
+            _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm256_cvtps_ph(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
+        else
+            store(to, add(a, _mm256_setzero_ps()));
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, doubles a) noexcept {
         if constexpr (std::same_as<Channel, unorm8>) {

@@ -149,16 +149,16 @@ struct avx512 {
     template <channel Channel, int Channels> GNOMON_LANES floats codes_of(const typename Channel::storage* from, int c) noexcept {
         if constexpr (std::same_as<Channel, unorm8> && Channels == 2) {
             const ints pairs = _mm512_maskz_cvtepu16_epi32(all, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
-            return number(c == 0 ? _mm512_and_si512(pairs, _mm512_set1_epi32(255)) : _mm512_maskz_srli_epi32(all, pairs, 8));
+            return numbers(c == 0 ? _mm512_and_si512(pairs, _mm512_set1_epi32(255)) : _mm512_maskz_srli_epi32(all, pairs, 8));
         } else if constexpr (std::same_as<Channel, unorm16> && Channels == 2) {
             const ints pairs = load(from);
-            return number(c == 0 ? _mm512_and_si512(pairs, _mm512_set1_epi32(65535)) : _mm512_maskz_srli_epi32(all, pairs, 16));
+            return numbers(c == 0 ? _mm512_and_si512(pairs, _mm512_set1_epi32(65535)) : _mm512_maskz_srli_epi32(all, pairs, 16));
         } else if constexpr (std::same_as<Channel, float32> && Channels == 1) {
             return load(from);
         } else if constexpr (std::same_as<Channel, half16> && Channels == 1) {
             return _mm512_maskz_cvtph_ps(all, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
         } else if constexpr (std::same_as<Channel, unorm16> && Channels == 1) {
-            return number(_mm512_maskz_cvtepu16_epi32(all, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from))));
+            return numbers(widen32(from));
         } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
             return channel_of_pairs(load(from), load(from + 16), c);
         } else if constexpr (std::same_as<Channel, half16> && Channels == 2) {
@@ -170,7 +170,7 @@ struct avx512 {
         }
     }
 
-    GNOMON_LANES floats numbers(ints a) noexcept { return number(a); }
+    GNOMON_LANES floats numbers(ints a) noexcept { return _mm512_maskz_cvtepi32_ps(all, a); }
     GNOMON_LANES bool any(masks a) noexcept { return a != 0; }
     GNOMON_LANES floats lesser(floats a, floats b) noexcept { return _mm512_maskz_min_ps(all, b, a); }
     GNOMON_LANES_VOID void settle(floats& a) noexcept { GNOMON_SETTLE(a); }
@@ -213,20 +213,13 @@ struct avx512 {
         }
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
-        if constexpr (Channel::whole_codes) {
-            const ints whole = _mm512_maskz_cvttps_epi32(all, a);
-            if constexpr (std::same_as<Channel, unorm8>) {
-                _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm512_maskz_cvtepi32_epi8(all, whole));
-            } else {
-                _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_maskz_cvtepi32_epi16(all, whole));
-            }
-        } else {
-            if constexpr (std::same_as<Channel, half16>)
-                _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
-                                    _mm512_maskz_cvtps_ph(all, a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
-            else
-                store(to, add(a, _mm512_setzero_ps()));
-        }
+        if constexpr (Channel::whole_codes)
+            store_low(to, _mm512_maskz_cvttps_epi32(all, a));
+        else if constexpr (std::same_as<Channel, half16>)
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                                _mm512_maskz_cvtps_ph(all, a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
+        else
+            store(to, add(a, _mm512_setzero_ps()));
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, doubles a) noexcept {
         if constexpr (std::same_as<Channel, unorm8>) {
@@ -278,7 +271,6 @@ struct avx512 {
         const ints even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
         return _mm512_permutex2var_ps(a, c == 0 ? even : _mm512_or_si512(even, _mm512_set1_epi32(1)), b);
     }
-    GNOMON_LANES floats number(ints a) noexcept { return _mm512_maskz_cvtepi32_ps(all, a); }
     /// `a` where the mask has ones, `b` where it has none.
     GNOMON_LANES ints chosen(ints mask, ints a, ints b) noexcept { return _mm512_ternarylogic_epi32(mask, a, b, 0xCA); }
     /// Cut to the 24 bits of a float, the last one set if anything was lost: rounding that to a half rounds once.

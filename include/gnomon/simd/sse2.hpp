@@ -171,8 +171,7 @@ struct sse2 {
         } else if constexpr (std::same_as<Channel, float32> && Channels == 1) {
             return load(from);
         } else if constexpr (std::same_as<Channel, unorm16> && Channels == 1) {
-            const ints words = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
-            return _mm_cvtepi32_ps(_mm_unpacklo_epi16(words, _mm_setzero_si128()));
+            return numbers(widen32(from));
         } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
             return c == 0 ? _mm_shuffle_ps(load(from), load(from + 4), 0x88) : _mm_shuffle_ps(load(from), load(from + 4), 0xDD);
         } else {
@@ -215,24 +214,13 @@ struct sse2 {
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, floats a) noexcept {
         if constexpr (Channel::whole_codes) {
-            const ints whole = _mm_cvttps_epi32(a);
-            if constexpr (std::same_as<Channel, unorm8>) {
-                const ints words = _mm_packs_epi32(whole, whole);
-                const int four = _mm_cvtsi128_si32(_mm_packus_epi16(words, words));
-                std::memcpy(to, &four, sizeof four);
-            } else {
-                const ints less = _mm_sub_epi32(whole, _mm_set1_epi32(32768)); // what is packed is signed
-                _mm_storel_epi64(reinterpret_cast<__m128i*>(to),
-                                 _mm_xor_si128(_mm_packs_epi32(less, less), _mm_set1_epi16(-32768)));
-            }
+            store_low(to, _mm_cvttps_epi32(a));
+        } else if constexpr (std::same_as<Channel, float32>) {
+            store(to, add(a, _mm_setzero_ps()));
         } else {
-            if constexpr (std::same_as<Channel, float32>) {
-                store(to, add(a, _mm_setzero_ps()));
-            } else {
-                emulated<bytes>::floats numbers;
-                store(numbers.lane, a);
-                emulated<bytes>::template store_codes<Channel>(to, numbers);
-            }
+            emulated<bytes>::floats numbers;
+            store(numbers.lane, a);
+            emulated<bytes>::template store_codes<Channel>(to, numbers);
         }
     }
     template <channel Channel> GNOMON_LANES_VOID void store_codes(typename Channel::storage* to, doubles a) noexcept {
