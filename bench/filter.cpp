@@ -6,16 +6,13 @@
 //     box, box.avx2             the same of a box, 8-bit only; its peer is boxcv, cv::boxFilter
 //     blur, sep                 cv::GaussianBlur and cv::sepFilter2D in one thread, if CMake found OpenCV
 //     copy, stream              the floor: memcpy of the same bytes, and reading with stores that pass the caches by (kTAPS is k0)
+#include "floors.hpp"
+
 #include <gnomon/backend/simd.hpp>
 
 #include <benchmark/benchmark.h>
 
-#include <cstring>
 #include <string>
-#include <vector>
-#if GNOMON_X86
-#include <emmintrin.h>
-#endif
 #if GNOMON_BENCH_OPENCV
 #include <opencv2/imgproc.hpp>
 #endif
@@ -101,28 +98,9 @@ template <kernel Kernel, typename Texel> void add_all(int size) {
 
 template <typename Texel> void add_floor(int size) {
     const auto bytes = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * sizeof(Texel);
-    struct alignas(64) line {
-        unsigned char byte[64];
-    };
-    add("copy", format<Texel>, 0, size, bytes, [bytes](benchmark::State& state) {
-        const std::vector<line> from(bytes / 64, line{{1}});
-        std::vector<line> to(from.size());
-        for ([[maybe_unused]] auto _ : state) {
-            std::memcpy(to.data(), from.data(), bytes);
-            benchmark::ClobberMemory();
-        }
-    });
+    add("copy", format<Texel>, 0, size, bytes, [bytes](benchmark::State& state) { floors::copy(state, bytes); });
 #if GNOMON_X86
-    add("stream", format<Texel>, 0, size, bytes, [bytes](benchmark::State& state) {
-        const std::vector<line> from(bytes / 64, line{{1}});
-        std::vector<line> to(from.size());
-        for ([[maybe_unused]] auto _ : state) {
-            const auto* in = reinterpret_cast<const __m128i*>(from.data());
-            auto* out = reinterpret_cast<__m128i*>(to.data());
-            for (std::size_t i = 0; i < bytes / 16; ++i) _mm_stream_si128(out + i, _mm_load_si128(in + i));
-            benchmark::ClobberMemory();
-        }
-    });
+    add("stream", format<Texel>, 0, size, bytes, [bytes](benchmark::State& state) { floors::stream(state, bytes); });
 #endif
 }
 

@@ -4,18 +4,15 @@
 //     both             filter, then receive depths of 16 bits into bytes; with .avx2 behind it by simd<avx2>
 //     copy, stream     the filter's floor: memcpy of the map, and reading it with stores that pass the caches by
 //     receive.copy     the receivers' floor: a memcpy that moves as many bytes
+#include "floors.hpp"
+
 #include <gnomon/backend/simd.hpp>
 
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
-#include <vector>
-#if GNOMON_X86
-#include <emmintrin.h>
-#endif
 
 namespace {
 using namespace gnomon;
@@ -27,10 +24,6 @@ using intensity_code = std::uint8_t;
 constexpr int side = 1024;
 constexpr extent size{side, side};
 constexpr std::size_t texels = std::size_t{side} * side;
-
-struct alignas(64) line {
-    unsigned char byte[64];
-};
 
 template <typename F> void add(const std::string& what, F&& work) {
     benchmark::RegisterBenchmark((what + "/u8x2/k9/1024").c_str(), work);
@@ -56,16 +49,8 @@ template <typename Isa> void add_pipeline(const char* what) {
     });
 }
 
-/// Copies so many bytes.
 void add_copy(const char* what, std::size_t bytes) {
-    add(what, [bytes](benchmark::State& state) {
-        const std::vector<line> from(bytes / sizeof(line), line{{1}});
-        std::vector<line> to(from.size());
-        for ([[maybe_unused]] auto _ : state) {
-            std::memcpy(to.data(), from.data(), bytes);
-            benchmark::ClobberMemory();
-        }
-    });
+    add(what, [bytes](benchmark::State& state) { floors::copy(state, bytes); });
 }
 
 #if GNOMON_X86
@@ -73,16 +58,7 @@ void add_avx2() {
     if (best_lanes() >= cpu_level::avx2) add_pipeline<avx2>("both.avx2");
 }
 void add_stream() {
-    add("stream", [](benchmark::State& state) {
-        const std::vector<line> from(texels * sizeof(texel) / sizeof(line), line{{1}});
-        std::vector<line> to(from.size());
-        for ([[maybe_unused]] auto _ : state) {
-            const auto* in = reinterpret_cast<const __m128i*>(from.data());
-            auto* out = reinterpret_cast<__m128i*>(to.data());
-            for (std::size_t i = 0; i < texels * sizeof(texel) / 16; ++i) _mm_stream_si128(out + i, _mm_load_si128(in + i));
-            benchmark::ClobberMemory();
-        }
-    });
+    add("stream", [](benchmark::State& state) { floors::stream(state, texels * sizeof(texel)); });
 }
 #else
 void add_avx2() {}

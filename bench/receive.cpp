@@ -7,13 +7,14 @@
 //     points, points.avx2, points.scalar     one receiver a texel at positions of its own, side by side but turned a little
 //     gather, gather.avx2                    the floor of these: two gathers of 32 bits and a store
 //     opencv                                 divide, subtract, compare, setTo, copyTo on planes, in one thread, if CMake found OpenCV
+#include "floors.hpp"
+
 #include <gnomon/backend/simd.hpp>
 
 #include <benchmark/benchmark.h>
 
 #include <concepts>
 #include <cstdint>
-#include <cstring>
 #include <random>
 #include <string>
 #if GNOMON_X86
@@ -90,14 +91,7 @@ template <typename Texel, typename Depth, typename Intensity> void add_format(co
         if (best_lanes() >= cpu_level::avx2) add_ours<simd<avx2>, Texel, Depth, Intensity>("simd.avx2", format, size);
 #endif
         const auto half = square(size) * bytes_of<Texel, Depth, Intensity> / 2;
-        add("copy", format, size, 2 * half, [half](benchmark::State& state) {
-            const image<unsigned char> from({static_cast<int>(half), 1}, 1);
-            image<unsigned char> to(from.size());
-            for ([[maybe_unused]] auto _ : state) {
-                std::memcpy(&to(0, 0), &from(0, 0), half);
-                benchmark::ClobberMemory();
-            }
-        });
+        add("copy", format, size, 2 * half, [half](benchmark::State& state) { floors::copy(state, half); });
     }
 }
 

@@ -1,0 +1,45 @@
+// What memory allows: the floors that several benches stand beside.
+#pragma once
+
+#include <gnomon/simd/region.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <cstring>
+#include <vector>
+#if GNOMON_X86
+#include <emmintrin.h>
+#endif
+
+namespace floors {
+
+struct alignas(64) line {
+    unsigned char byte[64];
+};
+
+/// memcpy of so many bytes. \pre a multiple of 64
+inline void copy(benchmark::State& state, std::size_t bytes) {
+    const std::vector<line> from(bytes / sizeof(line), line{{1}});
+    std::vector<line> to(from.size());
+    for ([[maybe_unused]] auto _ : state) {
+        std::memcpy(to.data(), from.data(), bytes);
+        benchmark::ClobberMemory();
+    }
+}
+
+#if GNOMON_X86
+/// Reading so many bytes, with stores that pass the caches by. \pre a multiple of 64
+inline void stream(benchmark::State& state, std::size_t bytes) {
+    const std::vector<line> from(bytes / sizeof(line), line{{1}});
+    std::vector<line> to(from.size());
+    for ([[maybe_unused]] auto _ : state) {
+        const auto* in = reinterpret_cast<const __m128i*>(from.data());
+        auto* out = reinterpret_cast<__m128i*>(to.data());
+        for (std::size_t i = 0; i < bytes / 16; ++i) _mm_stream_si128(out + i, _mm_load_si128(in + i));
+        benchmark::ClobberMemory();
+    }
+}
+#endif
+
+} // namespace floors
