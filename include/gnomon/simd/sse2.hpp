@@ -94,7 +94,8 @@ struct sse2 {
     template <int Places> GNOMON_LANES ints shift_up32(ints a) noexcept { return _mm_slli_si128(a, 4 * Places); }
     template <int Count> GNOMON_LANES ints repeat_last32(ints a) noexcept {
         constexpr auto from = [](int i) { return 4 - Count + i % Count; };
-        return _mm_shuffle_epi32(a, from(0) | from(1) << 2 | from(2) << 4 | from(3) << 6);
+        constexpr int order = from(0) | from(1) << 2 | from(2) << 4 | from(3) << 6; // by name: g++ -O0 takes no expression
+        return _mm_shuffle_epi32(a, order);
     }
     template <int Shift> GNOMON_LANES ints multiply_shift32(ints a, ints b) noexcept {
         const ints even = _mm_srli_epi64(_mm_mul_epu32(a, b), Shift);
