@@ -9,16 +9,19 @@
 
 #define GNOMON_ON on_any
 #include <gnomon/backend/simd_receive.hpp>
+#include <gnomon/backend/simd_points.hpp>
 #undef GNOMON_ON
 #if GNOMON_X86
 GNOMON_TARGET_BEGIN(GNOMON_AVX2)
 #define GNOMON_ON on_avx2
 #include <gnomon/backend/simd_receive.hpp>
+#include <gnomon/backend/simd_points.hpp>
 #undef GNOMON_ON
 GNOMON_TARGET_END
 GNOMON_TARGET_BEGIN(GNOMON_AVX512)
 #define GNOMON_ON on_avx512
 #include <gnomon/backend/simd_receive.hpp>
+#include <gnomon/backend/simd_points.hpp>
 #undef GNOMON_ON
 GNOMON_TARGET_END
 #endif

@@ -1,0 +1,121 @@
+// gnomon: soft shadow maps. The filter in lanes, first part: what all of it shares, and sums in doubles or floats. Included by
+// simd_filter.hpp, and in its way.
+
+#include <gnomon/filter/separable.hpp>
+#include <gnomon/simd/region.hpp>
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#ifdef GNOMON_ON
+namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
+
+/// Rows that are summed side by side, and bytes of a row that a strip takes.
+inline constexpr int rows_at_once = 4, strip_bytes = 4096;
+
+/// What is read is called for ahead of time in a map as large as this, and a result as large as that is written past the caches:
+/// both where filtering and receiving together gained by it.
+inline constexpr std::int64_t prefetched_bytes = 4 << 20, streamed_bytes = 16 << 20;
+
+/// Calls for what the next rows hold at `i`, if they are to be called for.
+template <typename Isa, typename Storage> GNOMON_INLINE void call_for(const Storage* const* ahead, int i) noexcept {
+    if (ahead == nullptr) return;
+    GNOMON_UNROLL(4)
+    for (int j = 0; j < rows_at_once; ++j) Isa::prefetch(ahead[j] + i);
+}
+
+/// Any texel that is filtered channel by channel, in doubles, whose sums are exact, or in floats. (See filter/separable.hpp.)
+template <typename Isa, kernel Kernel, texel_format Texel, typename Number> struct wide_filter {
+    using by = detail::sums<Texel, Kernel>;
+    using channel_type = typename Texel::channel_type;
+    using storage = typename Texel::storage;
+    using element = Number;
+    using numbers = decltype(Isa::repeat(Number{}));
+
+    static constexpr int step = Isa::bytes / static_cast<int>(sizeof(Number)); ///< channels that are made at a time
+    static constexpr int strip = strip_bytes / static_cast<int>(sizeof(Number)) / Texel::channels * Texel::channels;
+    static constexpr int margin = Kernel::radius * Texel::channels;
+    static constexpr int line_size = step + strip + 2 * margin + step + Texel::channels; ///< for one row, in elements
+    static constexpr int taps = 2 * Kernel::radius + 1;
+    [[nodiscard]] static constexpr int place(int i) noexcept { return i; }
+
+    static constexpr auto weights = [] {
+        std::array<Number, static_cast<std::size_t>(taps + 2 * rows_at_once)> w{};
+        for (int t = 0; t < taps; ++t) w[static_cast<std::size_t>(t + rows_at_once)] = by::template weight<Number>(t);
+        return w;
+    }();
+    GNOMON_LANES numbers codes(const storage* from) noexcept {
+        if constexpr (by::in_floats)
+            return Isa::template codes_of<channel_type, 1>(from, 0);
+        else if constexpr (Texel::representation_type::premultiplied)
+            return Isa::template codes<channel_type>(from);
+        else
+            return Isa::multiply_pairs(Isa::template codes<channel_type>(from), static_cast<double>(channel_type::scale));
+    }
+
+    static void columns(const storage* const* rows, const storage* const* ahead, Number* line, int count) noexcept {
+        for (int at = 0; at < count; at += step) {
+            const int i = lesser(at, count - step);
+            call_for<Isa>(ahead, i);
+            numbers sum[rows_at_once];
+            GNOMON_UNROLL(4)
+            for (int j = 0; j < rows_at_once; ++j) sum[j] = Isa::repeat(Number{});
+            GNOMON_UNROLL(16)
+            for (int t = 0; t < taps + rows_at_once - 1; ++t) {
+                const numbers values = codes(rows[t] + i);
+                const Number* w = weights.data() + rows_at_once + t;
+                GNOMON_UNROLL(4)
+                for (int j = 0; j < rows_at_once; ++j)
+                    if (channel_type::whole_codes || (t >= j && t < taps + j)) // an infinity times no weight is no zero
+                        sum[j] = Isa::add_product(sum[j], values, Isa::repeat(w[-j]));
+            }
+            GNOMON_UNROLL(4)
+            for (int j = 0; j < rows_at_once; ++j) {
+                if constexpr (!channel_type::whole_codes && !by::in_floats) { // detail::to_bits<36>
+                    constexpr std::uint64_t dropped = (1 << 17) - 1;
+                    sum[j] = Isa::add_and_mask(sum[j], dropped / 2 + 1, ~dropped);
+                }
+                Isa::store(line + j * line_size + i, sum[j]);
+            }
+        }
+    }
+
+    static void clear(Number* line, int first, int last) noexcept {
+        for (int i = first; i < last; ++i) {
+            const auto code = Texel::clear().template linear<Number>(i % Texel::channels);
+            line[i] = static_cast<Number>(by::weights_of::total) / by::unit * code;
+        }
+    }
+
+    GNOMON_LANES_VOID void row(const Number* line, storage* to) noexcept {
+        constexpr auto whole = static_cast<Number>(by::whole);
+        numbers sum = Isa::repeat(Number{});
+        GNOMON_UNROLL(16)
+        for (int t = 0; t < taps; ++t)
+            sum = Isa::add_product(sum, Isa::load(line + t * Texel::channels),
+                                   Isa::repeat(weights[static_cast<std::size_t>(t + rows_at_once)]));
+        if constexpr (!Texel::representation_type::premultiplied) {
+            double sums[static_cast<std::size_t>(step)];
+            Isa::store(sums, sum);
+            for (int k = 0; k < step; k += Texel::channels) {
+                const std::uint64_t linear[] = {static_cast<std::uint64_t>(sums[k]), static_cast<std::uint64_t>(sums[k + 1])};
+                const Texel made = Texel::from_linear(linear, by::whole);
+                to[k] = made.stored[0];
+                to[k + 1] = made.stored[1];
+            }
+        } else if constexpr (channel_type::whole_codes) {
+            // Halves upwards, then down. The quarter keeps what is whole from being rounded below itself: sum and whole are whole, and
+            // a quarter of 1/whole is more than the product can be wrong by, for every total there is.
+            constexpr double half = static_cast<double>(by::whole / 2) + 0.25;
+            sum = Isa::multiply(Isa::add(sum, Isa::repeat(half)), Isa::repeat(1.0 / whole));
+        } else if constexpr (!by::in_floats || !std::has_single_bit(static_cast<unsigned>(by::weights_of::total))) {
+            sum = Isa::divide(sum, Isa::repeat(whole));
+        }
+        if constexpr (Texel::representation_type::premultiplied) Isa::template store_codes<channel_type>(to, sum);
+    }
+};
+
+} // namespace gnomon::inline GNOMON_BUILD::GNOMON_ON
+#endif
