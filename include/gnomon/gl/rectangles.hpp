@@ -5,6 +5,7 @@
 #include <gnomon/rect.hpp>
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace gnomon::inline GNOMON_BUILD {
@@ -32,19 +33,28 @@ class rectangle_list {
   public:
     static constexpr int capacity = 256;
 
-    explicit rectangle_list(const context& c) : buffer_(*c.gl), array_(*c.gl) {
-        pending_.reserve(capacity);
+    /// Owns nothing, and must not be drawn with.
+    rectangle_list() = default;
+
+    /// \pre a state_guard that restores lives, or who calls puts back vertex array and array buffer
+    [[nodiscard]] static result<rectangle_list> make(const context& c) {
         const functions& gl = *c.gl;
-        constexpr int stride = sizeof(surface);
-        gl.BindVertexArray(array_.name());
-        gl.BindBuffer(enums::array_buffer, buffer_.name());
-        gl.BufferData(enums::array_buffer, std::ptrdiff_t{capacity} * stride, nullptr, enums::stream_draw);
+        result<buffer> memory = make_buffer(c, std::ptrdiff_t{capacity} * stride, nullptr, enums::stream_draw);
+        if (!memory) return memory.error();
+        rectangle_list made;
+        made.buffer_ = *std::move(memory);
+        made.array_ = vertex_array(c);
+        if (!made.array_) return detail::made_none("vertex array");
+        made.pending_.reserve(capacity);
+        gl.BindVertexArray(made.array_.name());
+        gl.BindBuffer(enums::array_buffer, made.buffer_.name());
         gl.EnableVertexAttribArray(0);
         gl.EnableVertexAttribArray(1);
         gl.VertexAttribIPointer(0, 4, enums::type_int, stride, nullptr);
         gl.VertexAttribPointer(1, 2, enums::type_float, 0, stride, reinterpret_cast<const void*>(offsetof(surface, depth)));
         gl.VertexAttribDivisor(0, 1);
         gl.VertexAttribDivisor(1, 1);
+        return made;
     }
 
     /// Draws what walk(f) hands to f, as a surface or a texel_rect; in that order. Rectangles must be clipped to the target.
@@ -86,6 +96,8 @@ class rectangle_list {
     }
 
   private:
+    static constexpr int stride = sizeof(surface);
+
     void add(const surface& s) { pending_.push_back(s); }
     void add(texel_rect r) { pending_.push_back({.where = r}); }
     void upload(const context& c) const {
