@@ -128,7 +128,7 @@ template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_co
 uniform sampler2D gnomon_texels;
 layout(location = 0) out @uvec gnomon_sums;
 @weights
-@sum gnomon_sum;
+@sum gnomon_sum = @zero;
 
 void gnomon_add(@number weight, int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
@@ -141,7 +141,7 @@ void gnomon_add(@number weight, int away) {
         text += "    @uvec codes = @uvec(texel * @scale + 0.5);\n    gnomon_sum += weight * @linear;\n";
     else
         text += "    gnomon_sum += weight * @linear;\n";
-    text += "}\n\nvoid main() {\n    gnomon_sum = @zero;\n@taps    gnomon_sums = @result;\n}\n";
+    text += "}\n\nvoid main() {\n@taps    gnomon_sums = @result;\n}\n";
     const std::string result = !of::whole_codes         ? "floatBitsToUint(gnomon_sum)"
                                : of::by::stored_between ? "(gnomon_sum + @halfu) / @wholeu"
                                                         : "gnomon_sum";
@@ -217,7 +217,8 @@ template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_ro
 layout(location = 0) out @vec gnomon_texel;
 @weights@division
 )";
-    text += of::two_words ? "@uvec gnomon_low, gnomon_high; // sums of the low and the high 16 bits\n" : "@sum gnomon_sum;\n";
+    text += of::two_words ? "@uvec gnomon_low = @zero, gnomon_high = @zero; // sums of the low and the high 16 bits\n"
+                          : "@sum gnomon_sum = @zero;\n";
     text += R"(
 void gnomon_add(@number weight, int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
@@ -229,7 +230,6 @@ void gnomon_add(@number weight, int away) {
             : of::two_words ? "    gnomon_low += weight * (sums & 0xFFFFu);\n    gnomon_high += weight * (sums >> 16);\n"
                             : "    gnomon_sum += weight * sums;\n";
     text += "}\n\nvoid main() {\n";
-    text += of::two_words ? "    gnomon_low = @zero;\n    gnomon_high = @zero;\n" : "    gnomon_sum = @zero;\n";
     text += "@taps";
     if constexpr (!of::whole_codes) {
         constexpr auto whole = static_cast<float>(of::by::whole);
