@@ -67,8 +67,7 @@ template <gnomon::texel_format Texel, gnomon::kernel Kernel> class gl_map {
         const guard forced(c_);
         gnomon::image<Texel> image(size_, Texel::caster(0.25f));
         gnomon::gl::texel_reader<Texel> reader(size_);
-        c_.gl->BindFramebuffer(gnomon::gl::enums::framebuffer, framebuffer);
-        reader.read(c_, image.view(), whole(size_));
+        reader.read(c_, framebuffer, image.view(), whole(size_));
         return image;
     }
     void write(unsigned texture, const gnomon::image<Texel>& from) {

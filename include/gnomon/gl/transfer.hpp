@@ -45,19 +45,20 @@ template <texel_format Texel> class texel_reader {
         : rows_(detail::rows_at_once(size.width, sizeof(row_texel), size.height)),
           staging_(size.empty() ? 0 : static_cast<std::size_t>(size.width) * static_cast<std::size_t>(rows_)) {}
 
-    /// Reads `part` of what is attached to the bound GL_READ_FRAMEBUFFER, row 0 first; `to` is the whole image.
-    /// \pre pixel-pack state is GL's own, and `part` is no wider than the size that this was made for
-    void read(const context& c, image_view<Texel> to, texel_rect part) {
+    /// Reads `part` of the colour of a framebuffer into the same part of an image, row 0 first. Leaves it bound for reading.
+    /// \pre a state_guard lives, and `part` is no wider than the size that this was made for
+    void read(const context& c, unsigned from, image_view<Texel> to, texel_rect part) {
         part = clip(part, to.size());
         if (part.empty()) return;
+        c.gl->BindFramebuffer(enums::read_framebuffer, from);
         for (int y0 = part.y0; y0 < part.y1; y0 += rows_) {
             const int y1 = lesser(part.y1, y0 + rows_);
             c.gl->ReadPixels(part.x0, y0, part.width(), y1 - y0, format_of<Texel>.read, format_of<Texel>.read_type,
                              staging_.data());
-            const row_texel* from = staging_.data();
+            const row_texel* next = staging_.data();
             for (int y = y0; y < y1; ++y)
-                for (int x = part.x0; x < part.x1; ++x, ++from)
-                    for (int i = 0; i < Texel::channels; ++i) to(x, y).stored[i] = detail::stored_from<Texel>(from->rgba[i]);
+                for (int x = part.x0; x < part.x1; ++x, ++next)
+                    for (int i = 0; i < Texel::channels; ++i) to(x, y).stored[i] = detail::stored_from<Texel>(next->rgba[i]);
         }
     }
 
@@ -70,7 +71,7 @@ template <texel_format Texel> class texel_reader {
 };
 
 /// Writes texels into the texture that is bound to GL_TEXTURE_2D, whose format is format_of<Texel>. Allocates what it hands over.
-/// \pre pixel-unpack state is GL's own, but for an alignment of 1
+/// \pre a state_guard lives
 template <texel_format Texel> void write_texels(const context& c, image_view<const Texel> from, int x0 = 0, int y0 = 0) {
     constexpr int components = format_of<Texel>.channels;
     struct row_texel {
