@@ -37,6 +37,12 @@ template <typename Texel, typename... Kernels> void compile_filters(const gl::co
 template <typename Texel> void compile_texel(const gl::context& c) {
     CHECK(complaint(c, enums::fragment_shader, gl::caster_rectangles_text<Texel>()) == "");
     if constexpr (Texel::effects.far_bound) CHECK(complaint(c, enums::fragment_shader, gl::bound_rectangles_text<Texel>()) == "");
+    const std::string printed = gl::receive_text<Texel>({.fade = 0.25f, .lit_beyond = true});
+    const std::string uniforms = gl::receive_text<Texel>(gl::shader_rule<Texel>::uniforms());
+    for (const std::string& receive : {printed, uniforms})
+        for (const std::string_view main :
+             {gl::receive_texels_main_text, gl::receive_points_main_text, gl::receive_screen_main_text})
+            CHECK(complaint(c, enums::fragment_shader, receive + std::string(main)) == "");
     compile_filters<Texel, box<0>, box<2>, tent<2>, binomial<3>, fast<gaussian<4>>, gaussian<4>, box<20>, gaussian<20>>(c);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gnomon/config.hpp>
 
+#include <bit>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -37,9 +38,10 @@ enum class glsl_version {
 
 namespace detail {
 
-/// A float in GLSL: the fewest digits that are read back as the same. \pre finite
+/// A float in GLSL: the fewest digits that are read back as the same; what is not finite as its bits.
 [[nodiscard]] inline std::string literal(float v) {
     char digits[64];
+    if (!(v - v <= 0.0f)) return "uintBitsToFloat(" + std::to_string(std::bit_cast<std::uint32_t>(v)) + "u)";
     const auto end = std::to_chars(digits, digits + sizeof digits, v).ptr;
     std::string text(digits, end);
     return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;

@@ -58,6 +58,11 @@ template <texel_format Texel> [[nodiscard]] std::string format_name() {
 /// What GLSL keeps a texel in; three channels live in four.
 template <texel_format Texel> inline constexpr int components = Texel::channels == 2 ? 2 : 4;
 
+/// "vec2" or "vec4", and of another kind "uvec2".
+template <texel_format Texel> [[nodiscard]] std::string vec(const char* kind = "") {
+    return kind + ("vec" + literal(components<Texel>));
+}
+
 /// Texels that GL can hold and these shaders understand.
 template <texel_format Texel> consteval void check_texel() {
     static_assert(

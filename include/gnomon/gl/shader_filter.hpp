@@ -46,10 +46,6 @@ inline constexpr std::uint32_t filter_scratch_largest =
 
 namespace detail {
 
-template <texel_format Texel> [[nodiscard]] std::string vec(const char* kind = "") {
-    return kind + ("vec" + literal(components<Texel>));
-}
-
 /// "vec2(f(v.x), f(v.y))" from "f(v." and ")"
 template <texel_format Texel> [[nodiscard]] std::string each_component(const std::string& before, const std::string& after) {
     std::string text = vec<Texel>() + "(";

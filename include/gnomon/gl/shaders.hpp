@@ -2,11 +2,13 @@
 //
 //     header + surfaces_vertex_text       with    header + caster_rectangles_text<Texel>(), bound_rectangles_text<Texel>()
 //     header + rectangles_vertex_text     with    header + filter_columns_text<Texel, Kernel>(), filter_rows_text<Texel, Kernel>()
+//     header + rectangles_vertex_text     with    header + receive_text<Texel>(rule) + receive_texels_main_text, or another main
 #pragma once
 
 #include <gnomon/gl/context.hpp>
 #include <gnomon/gl/shader_caster.hpp>
 #include <gnomon/gl/shader_filter.hpp>
+#include <gnomon/gl/shader_receive.hpp>
 
 namespace gnomon::inline GNOMON_BUILD {
 namespace gl {
