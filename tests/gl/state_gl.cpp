@@ -97,7 +97,7 @@ TEST_CASE("among a hostile host's state a pass draws the same, and leaves all as
 
 TEST_CASE("transform feedback that runs is paused while a restoring guard lives, and records the host's vertices alone") {
     test::in_every_gl_context([](const gl::context& c) {
-        if (!c.since(40, 30)) return; // the host's to see to
+        if (!c.since(40, 30)) return test::skip("GL 3.3 cannot pause transform feedback; it is the host's to see to");
         const auto find = test::egl::library().get_proc_address;
         const auto begin = gl::detail::as_function<void (*)(unsigned)>(find("glBeginTransformFeedback"));
         const auto end = gl::detail::as_function<void (*)()>(find("glEndTransformFeedback"));
@@ -144,11 +144,12 @@ TEST_CASE("transform feedback that runs is paused while a restoring guard lives,
         end();
         const auto* record = static_cast<const float*>(map(feedback_buffer, 0, 256, map_read));
         REQUIRE(record != nullptr);
+        const auto recorded_at = [&](int i) { return static_cast<int>(record[i]); };
         for (const int corner : {0, 1, 2}) {
-            CHECK(record[4 * corner] == doctest::Approx(corner == 1 ? 3 : -1));
-            CHECK(record[4 * corner + 1] == doctest::Approx(corner == 2 ? 3 : -1));
+            CHECK(recorded_at(4 * corner) == (corner == 1 ? 3 : -1));
+            CHECK(recorded_at(4 * corner + 1) == (corner == 2 ? 3 : -1));
         }
-        CHECK(record[12] == doctest::Approx(unwritten));
+        CHECK(recorded_at(12) == static_cast<int>(unwritten));
         CHECK(c.check("feedback").sentence == "");
         c.gl->UseProgram(0);
     });
