@@ -50,12 +50,12 @@ uniform float gnomon_fade;
 // intensity of the shadow on a receiver at depth z, by the numbers of a filtered texel in codes
 float gnomon_shadow(vec4 texel, float z) {
     if (!(texel.y > 0.0 && z > 0.0 && !(gnomon_lit_beyond && z > 1.0))) return 0.0;
-    precise float e = (texel.x - gnomon_caster_bias.x) * gnomon_caster_bias.y;
-    precise float m = (texel.y + gnomon_caster_bias.z) * gnomon_caster_bias.w;
+    precise float e = texel.x - gnomon_caster_bias.x;
+    precise float m = texel.y + gnomon_caster_bias.z;
     precise float nearer_z = z - gnomon_caster_nearer;
     if (!(nearer_z < 0.5 ? gnomon_exceeds(m, nearer_z, m - e) : gnomon_exceeds(-m, 1.0 - nearer_z, -e))) return 0.0;
-    precise float e_2 = (texel.z - gnomon_bound_bias.x) * gnomon_bound_bias.y;
-    precise float m_2 = (texel.y + gnomon_bound_bias.z) * gnomon_bound_bias.w;
+    precise float e_2 = texel.z - gnomon_bound_bias.x;
+    precise float m_2 = texel.y + gnomon_bound_bias.z;
     precise float nearer_z_2 = z - gnomon_bound_nearer;
     precise float passed = m_2 * nearer_z_2 - (m_2 - e_2);
     precise float share = m_2 * gnomon_fade;
