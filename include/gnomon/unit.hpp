@@ -15,21 +15,27 @@
 
 namespace gnomon::inline GNOMON_BUILD {
 
-/// `v` limited to [0, 1]; NaN becomes 0.
-template <typename Real> [[nodiscard]] constexpr Real saturate(Real v) noexcept {
-    return v > Real(0) ? (v < Real(1) ? v : Real(1)) : Real(0);
-}
-
 /// The smaller and the larger of two; `a` if they are equal or unordered. (No <algorithm>, whose price is 20,000 lines.)
 template <typename T> [[nodiscard]] constexpr T lesser(T a, T b) noexcept { return b < a ? b : a; }
 template <typename T> [[nodiscard]] constexpr T greater(T a, T b) noexcept { return a < b ? b : a; }
 
-/// `a` if the condition holds, else `b`; both are evaluated. What formulas use that are shared with lanes of numbers, instead of
-/// ?:.
+/// @name What formulas use that are shared with numbers of other kinds, instead of ?:, && and a declaration.
+/// @{
+/// `a` if the condition holds, else `b`; both are evaluated.
 template <typename T> [[nodiscard]] constexpr T select(bool condition, T a, T b) noexcept { return condition ? a : b; }
+/// Do both hold? Both are evaluated.
+[[nodiscard]] constexpr bool both(bool a, bool b) noexcept { return a && b; }
+/// A temporary: the value itself, and its name where formulas are written down.
+template <typename T> [[nodiscard]] constexpr T let(const char* /*name*/, T value) noexcept { return value; }
+/// @}
+
+/// `v` limited to [0, 1]; NaN becomes 0.
+template <typename Real> [[nodiscard]] constexpr Real saturate(Real v) noexcept {
+    return select(v > Real(0), select(v < Real(1), v, Real(1)), Real(0));
+}
 
 /// a == b, for storage that may be float, without the warning that engines rightly switch on for it.
-template <typename T> [[nodiscard]] constexpr bool same(T a, T b) noexcept { return a <= b && a >= b; }
+template <typename T> [[nodiscard]] constexpr auto same(T a, T b) noexcept { return both(a <= b, a >= b); }
 
 /// A closed interval of depths, by default empty: including a depth in it makes it non-empty.
 struct depth_interval {

@@ -99,7 +99,7 @@ void print_receive() {
             const filtered<T> f = read(any_texel<T>(roll));
             const float z = roll.unit();
             for (const bias& b : {towards_light, unbiased, towards_shadow, moved(towards_light), moved(towards_shadow)}) {
-                const biased moved_by = apply<T>(b, f.depth(), f.mask(), z);
+                const biased<> moved_by = apply<T>(b, f.depth(), f.mask(), z);
                 h.add(moved_by.e, moved_by.m, moved_by.z);
             }
         }

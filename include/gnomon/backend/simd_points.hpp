@@ -54,7 +54,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                map.height() <= most && row <= 0x7FFFFFFF / map.height();
     }
     [[nodiscard]] static blended_decision of(image_view<const Texel> map, const rule& r) noexcept {
-        const biased moved = apply<Texel>(r.caster, 0.0, 0.0, 0.0f);
+        const biased<> moved = apply<Texel>(r.caster, 0.0, 0.0, 0.0f);
         const int codes = codes_towards_light<Texel>(r.caster);
         constexpr bool whole_depth = std::same_as<Depth, std::uint16_t>;
         const auto word = [](int n) { return static_cast<std::uint32_t>(n); };

@@ -7,29 +7,29 @@
 namespace gnomon::inline GNOMON_BUILD {
 
 /// A filtered texel as numbers, in codes: what a decision is made from. Reading a stored texel loses nothing.
-template <texel_format Texel> struct filtered {
+template <texel_format Texel, typename Number = double> struct filtered {
     /// What a full mask is.
     static constexpr double scale = Texel::linear_scale;
 
-    double code[static_cast<std::size_t>(Texel::channels)];
+    Number code[static_cast<std::size_t>(Texel::channels)];
 
     /// Premultiplied reversed depth e, whichever way the representation stores it.
-    [[nodiscard]] constexpr double depth() const noexcept { return complement(Texel::depth_index); }
-    [[nodiscard]] constexpr double mask() const noexcept { return code[Texel::mask_index]; }
+    [[nodiscard]] constexpr Number depth() const noexcept { return complement(Texel::depth_index); }
+    [[nodiscard]] constexpr Number mask() const noexcept { return code[Texel::mask_index]; }
     /// Premultiplied reversed depth of the far bound; 0 where no receiver bounds the shadow.
-    [[nodiscard]] constexpr double far_bound() const noexcept
+    [[nodiscard]] constexpr Number far_bound() const noexcept
         requires(Texel::effects.far_bound)
     {
         return complement(Texel::far_index);
     }
     /// How dark the shadow is, in codes: the contribution if there is one, else the mask.
-    [[nodiscard]] constexpr double contribution() const noexcept {
+    [[nodiscard]] constexpr Number contribution() const noexcept {
         return code[Texel::effects.translucency ? Texel::contribution_index : Texel::mask_index];
     }
 
   private:
-    [[nodiscard]] constexpr double complement(int index) const noexcept {
-        return Texel::representation_type::complement(code[index], scale);
+    [[nodiscard]] constexpr Number complement(int index) const noexcept {
+        return Texel::representation_type::complement(code[index], Number(scale));
     }
 };
 

@@ -65,18 +65,19 @@ inline constexpr caster_rounding caster_depth_error = [] {
 }();
 
 /// The pair (e, m) and the receiver z, each moved to the favoured end of what it may have been before it was rounded.
-struct biased {
-    double e;
-    double m;
-    float z;
+template <typename Number = double, typename Depth = float> struct biased {
+    Number e;
+    Number m;
+    Depth z;
 };
 
 /// What a bias does to a pair and to a float depth: ((e - depth_less) depth_share, (m + mask_more) mask_share, z - nearer).
-template <texel_format Texel> struct bias_steps {
-    using real = std::conditional_t<Texel::channel_type::whole_codes, double, float>;
-    real depth_less, depth_share;
-    real mask_more, mask_share;
-    float nearer;
+template <texel_format Texel, typename Real = std::conditional_t<Texel::channel_type::whole_codes, double, float>,
+          typename Depth = float>
+struct bias_steps {
+    Real depth_less, depth_share;
+    Real mask_more, mask_share;
+    Depth nearer;
 
     [[nodiscard]] static constexpr bias_steps of(const bias& b) noexcept {
         constexpr rounding_error depth = Texel::depth_rounding, mask = Texel::mask_rounding;
@@ -86,21 +87,23 @@ template <texel_format Texel> struct bias_steps {
         const float k = towards * static_cast<float>(b.roundings);
         const float rounded = towards > 0.0f ? caster_depth_error<Texel>.nearer : caster_depth_error<Texel>.farther;
         const float caster = b.caster_is_code ? 0.0f : rounded;
-        return {static_cast<real>(k * depth.absolute), static_cast<real>(1.0f - (k * depth.relative + towards * own)),
-                static_cast<real>(k * mask.absolute), static_cast<real>(1.0f + (k * mask.relative + towards * own)),
-                towards * (b.depth + caster)};
+        return {static_cast<Real>(k * depth.absolute), static_cast<Real>(1.0f - (k * depth.relative + towards * own)),
+                static_cast<Real>(k * mask.absolute), static_cast<Real>(1.0f + (k * mask.relative + towards * own)),
+                static_cast<Depth>(towards * (b.depth + caster))};
     }
 };
 
 /// Applies a bias to codes. Exact for unorm. For half and float in single precision, one operation at a time, so that any ISA can
 /// give the same bits; what that rounds is part of the bias.
-template <texel_format Texel> [[nodiscard]] constexpr biased apply(const bias& b, double e, double m, float z) noexcept {
-    using steps = bias_steps<Texel>;
-    using real = typename steps::real;
-    const steps by = steps::of(b);
-    const real lower = (static_cast<real>(e) - by.depth_less) * by.depth_share;
-    const real upper = (static_cast<real>(m) + by.mask_more) * by.mask_share;
-    return {static_cast<double>(lower), static_cast<double>(upper), z - by.nearer};
+template <texel_format Texel, typename Real, typename Depth, typename Number>
+[[nodiscard]] constexpr biased<Number, Depth> apply(const bias_steps<Texel, Real, Depth>& by, Number e, Number m,
+                                                    Depth z) noexcept {
+    const Real lower = let("e", (static_cast<Real>(e) - by.depth_less) * by.depth_share);
+    const Real upper = let("m", (static_cast<Real>(m) + by.mask_more) * by.mask_share);
+    return {static_cast<Number>(lower), static_cast<Number>(upper), let("nearer_z", z - by.nearer)};
+}
+template <texel_format Texel> [[nodiscard]] constexpr biased<> apply(const bias& b, double e, double m, float z) noexcept {
+    return apply(bias_steps<Texel>::of(b), e, m, z);
 }
 
 /// How many codes nearer to the light a bias moves a depth16; fewer than none are away from it. It makes up for the caster's own

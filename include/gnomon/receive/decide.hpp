@@ -29,51 +29,69 @@ concept intensity_number = std::same_as<T, float> || std::same_as<T, std::uint8_
 namespace detail {
 
 /// Lies a receiver where shadow may fall at all?
-[[nodiscard]] constexpr bool may_be_shadowed(float z, const rule& r) noexcept { return z > 0.0f && !(r.lit_beyond && z > 1.0f); }
-[[nodiscard]] constexpr bool may_be_shadowed(depth16 z, const rule&) noexcept { return z.code > 0; }
+template <typename Depth, typename Truth> [[nodiscard]] constexpr auto may_be_shadowed(Depth z, Truth lit_beyond) noexcept {
+    return both(z > Depth(0), !both(lit_beyond, z > Depth(1)));
+}
+[[nodiscard]] constexpr bool may_be_shadowed(depth16 z, bool /*lit_beyond*/) noexcept { return z.code > 0; }
 
+template <texel_format Texel, typename Number, typename Real, typename Depth>
+[[nodiscard]] constexpr auto behind_caster(const filtered<Texel, Number>& texel, Depth z,
+                                           const bias_steps<Texel, Real, Depth>& by) noexcept {
+    const auto near_side = apply(by, texel.depth(), texel.mask(), z);
+    return Texel::representation_type::behind(near_side.e, near_side.m, static_cast<Number>(near_side.z));
+}
 template <texel_format Texel>
 [[nodiscard]] constexpr bool behind_caster(const filtered<Texel>& texel, float z, const bias& b) noexcept {
-    const biased near_side = apply<Texel>(b, texel.depth(), texel.mask(), z);
-    return Texel::representation_type::behind(near_side.e, near_side.m, static_cast<double>(near_side.z));
+    return behind_caster(texel, z, bias_steps<Texel>::of(b));
 }
 
 /// e > m (1-z) times 65535. Whole numbers, or of at most 34 and 17 bits, so nothing is rounded, blends of unorm texels and numbers in
 /// float included. What a bias moves past an end of its range stays there, (e, m) at nothing, and z before all casters or behind them.
 template <texel_format Texel>
 [[nodiscard]] constexpr bool behind_caster(const filtered<Texel>& texel, depth16 z, const bias& b) noexcept {
-    const biased pair = apply<Texel>(b, texel.depth(), texel.mask(), 0.0f);
+    const biased<> pair = apply<Texel>(b, texel.depth(), texel.mask(), 0.0f);
     const int depth = z.code - codes_towards_light<Texel>(b), rest = depth16::last - depth;
     return rest < 0 || (depth > 0 && greater(0.0, pair.e) * depth16::last > greater(0.0, pair.m) * rest);
 }
 
 /// What is left of a shadow at `z`, from 1 before its far bound to 0 behind it; 1 if no receiver bounds it. \pre mask > 0
+template <texel_format Texel, typename Number, typename Real, typename Depth>
+[[nodiscard]] constexpr Number before_far_bound(const filtered<Texel, Number>& texel, Depth z,
+                                                const bias_steps<Texel, Real, Depth>& by, Number fade) noexcept {
+    const biased<Number, Depth> bound = apply(by, texel.far_bound(), texel.mask(), z);
+    const Number depth = static_cast<Number>(bound.z);
+    const Number passed = let("passed", bound.m * depth - (bound.m - bound.e)); // m (z - far bound)
+    const Number share = let("share", bound.m * fade);
+    const auto fades = let("fades", both(fade > Number(0), !same(share, Number(0))));
+    const Number left = let("left", Number(1) - passed / select(fades, share, Number(1)));
+    const auto beyond = Texel::representation_type::behind(bound.e, bound.m, depth);
+    return select(let("bounded", both(texel.far_bound() > Number(0), beyond)), select(fades, saturate(left), Number(0)), Number(1));
+}
 template <texel_format Texel>
 [[nodiscard]] constexpr double before_far_bound(const filtered<Texel>& texel, float z, const rule& r) noexcept {
-    if constexpr (!Texel::effects.far_bound) {
+    if constexpr (Texel::effects.far_bound)
+        return before_far_bound(texel, z, bias_steps<Texel>::of(r.far_bound), static_cast<double>(r.fade));
+    else
         return 1.0;
-    } else {
-        if (!(texel.far_bound() > 0.0)) return 1.0;
-        const biased bound = apply<Texel>(r.far_bound, texel.far_bound(), texel.mask(), z);
-        const double depth = static_cast<double>(bound.z);
-        if (!Texel::representation_type::behind(bound.e, bound.m, depth)) return 1.0;
-        const double passed = bound.m * depth - (bound.m - bound.e); // m (z - far bound)
-        return r.fade > 0.0f ? saturate(1.0 - passed / (bound.m * static_cast<double>(r.fade))) : 0.0;
-    }
 }
 template <texel_format Texel>
 [[nodiscard]] constexpr double before_far_bound(const filtered<Texel>& texel, depth16 z, const rule& r) noexcept {
     return before_far_bound(texel, unorm16::decode(z.code), r);
 }
 
-/// `left` of a darkness in codes of the texel, as it is stored. Codes are rounded once, halves upwards; those of a unorm texel of as
+/// `left` of a darkness in codes of the texel, as a share.
+template <texel_format Texel, typename Number> [[nodiscard]] constexpr Number intensity_of(Number darkness, Number left) noexcept {
+    return saturate(let("darkness", darkness / Number(filtered<Texel>::scale))) * left;
+}
+
+/// The same as it is stored. Codes are rounded once, halves upwards; those of a unorm texel of as
 /// many bits are its own.
 template <intensity_number Intensity, texel_format Texel>
-[[nodiscard]] constexpr Intensity intensity_of(double darkness, double left) noexcept {
-    constexpr double scale = filtered<Texel>::scale;
+[[nodiscard]] constexpr Intensity stored_intensity(double darkness, double left) noexcept {
     if constexpr (std::same_as<Intensity, float>) {
-        return static_cast<float>(saturate(darkness / scale) * left);
+        return static_cast<float>(intensity_of<Texel>(darkness, left));
     } else {
+        constexpr double scale = filtered<Texel>::scale;
         constexpr double last = static_cast<double>(unorm<Intensity>::scale);
         return unorm<Intensity>::store(lesser(greater(0.0, darkness), scale) * last / scale * left);
     }
@@ -88,8 +106,8 @@ template <intensity_number Intensity, texel_format Texel>
 /// Exact for the stored codes of unorm texels: no rounding happens before the comparison is decided.
 template <intensity_number Intensity, texel_format Texel, typename Depth>
 [[nodiscard]] constexpr Intensity shadow_as(const filtered<Texel>& texel, Depth z, const rule& r = {}) noexcept {
-    if (!(texel.mask() > 0.0) || !detail::may_be_shadowed(z, r) || !detail::behind_caster(texel, z, r.caster)) return 0;
-    return detail::intensity_of<Intensity, Texel>(texel.contribution(), detail::before_far_bound(texel, z, r));
+    if (!(texel.mask() > 0.0) || !detail::may_be_shadowed(z, r.lit_beyond) || !detail::behind_caster(texel, z, r.caster)) return 0;
+    return detail::stored_intensity<Intensity, Texel>(texel.contribution(), detail::before_far_bound(texel, z, r));
 }
 
 /// The same as a float.

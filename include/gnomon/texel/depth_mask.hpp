@@ -41,9 +41,10 @@ struct depth_mask {
     /// No division, so m = 0 is lit by construction. Both sides are homogeneous: e and m may be codes. Evaluated in double
     /// the comparison is exact for every e and m with up to 24 significant bits and e <= m, and every float `z`: the first
     /// form rounds nothing when z >= 1/2, the second rounds m - e only where that cannot change the answer.
+    /// In single precision too, if only the comparison with the product is exact, which is how it is written in GLSL.
     /// NaN anywhere compares false: lit. z = +inf counts as behind everything, z = -inf as before everything.
-    template <typename Real> [[nodiscard]] static constexpr bool behind(Real e, Real m, Real z) noexcept {
-        return select((z < Real(0.5)), m * z > m - e, e > m * (Real(1) - z));
+    template <typename Real> [[nodiscard]] static constexpr auto behind(Real e, Real m, Real z) noexcept {
+        return select(z<Real(0.5), m * z> m - e, e > m * (Real(1) - z));
     }
 };
 

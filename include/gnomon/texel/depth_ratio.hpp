@@ -41,7 +41,7 @@ struct depth_ratio {
 
     /// e > m (1-z), with e = t m. What the products of 16-bit codes round errs towards the light too: both sides round to the
     /// nearest double, and one of them is one.
-    template <typename Real> [[nodiscard]] static constexpr bool behind(Real e, Real m, Real z) noexcept {
+    template <typename Real> [[nodiscard]] static constexpr auto behind(Real e, Real m, Real z) noexcept {
         return depth_mask::behind(e, m, z);
     }
 };

@@ -1,0 +1,143 @@
+// gnomon: soft shadow maps. What GLSL lacks and an exact shader needs: a comparison with a product, halves, a wide quotient.
+//
+// Each is a text, in whole numbers of 32 bits, which every GL computes alike.
+#pragma once
+
+#include <gnomon/gl/glsl_text.hpp>
+
+namespace gnomon::inline GNOMON_BUILD {
+namespace gl {
+
+/// `bool gnomon_exceeds(float a, float b, float c)`: is a b > c? As if computed without rounding, which no float can.
+///
+/// As comparing doubles would have it: false if one is NaN, or if a b is, infinity times nothing; else an infinite product exceeds
+/// all that is not the same infinity. Subnormals count, where the driver leaves them what they are. Cost: about 60 operations.
+inline constexpr std::string_view exceeds_text = R"(// a * b > c, exactly: a product of floats has 48 bits, two limbs of 24
+bool gnomon_exceeds(float a, float b, float c) {
+    uint x = floatBitsToUint(a), y = floatBitsToUint(b), z = floatBitsToUint(c);
+    bool below = ((x ^ y) >> 31) != 0u, c_below = (z >> 31) != 0u; // zero, so the product and c
+    x &= 0x7FFFFFFFu;
+    y &= 0x7FFFFFFFu;
+    z &= 0x7FFFFFFFu;
+    const uint infinity = 0x7F800000u;
+    if (x > infinity || y > infinity || z > infinity) return false; // not a number
+    if (x == infinity || y == infinity) return x != 0u && y != 0u && !below && (c_below || z != infinity);
+    if (x == 0u || y == 0u) return c_below && z != 0u;
+    if (z == 0u) return !below;
+    if (z == infinity || below != c_below) return c_below;
+
+    // The significands, and a * b / 2^24 against c in units of one last place.
+    uint e = max(x >> 23, 1u) + max(y >> 23, 1u), f = max(z >> 23, 1u) + 174u;
+    x = (x & 0x7FFFFFu) | (x >> 23 != 0u ? 0x800000u : 0u);
+    y = (y & 0x7FFFFFu) | (y >> 23 != 0u ? 0x800000u : 0u);
+    z = (z & 0x7FFFFFu) | (z >> 23 != 0u ? 0x800000u : 0u);
+    uint cross = (x >> 12) * (y & 0xFFFu) + (x & 0xFFFu) * (y >> 12);
+    uint low = (x & 0xFFFu) * (y & 0xFFFu) + ((cross & 0xFFFu) << 12);
+    uint high = (x >> 12) * (y >> 12) + (cross >> 12) + (low >> 24);
+    low &= 0xFFFFFFu;
+    if (f <= e) return !below; // c is less than the last place of any product
+    uint shift = f - e;        // of c, to the left
+    if (shift >= 72u) return below;
+    uint c_2 = z >> (24u - shift % 24u), c_1 = (z << (shift % 24u)) & 0xFFFFFFu, c_0 = 0u; // three limbs
+    if (shift < 24u) {
+        c_0 = c_1;
+        c_1 = c_2;
+        c_2 = 0u;
+    } else if (shift >= 48u) {
+        if (c_2 != 0u) return below;
+        c_2 = c_1;
+        c_1 = 0u;
+    }
+    if (high != c_2) return (high > c_2) != below;
+    if (low != c_1) return (low > c_1) != below;
+    return below && c_0 != 0u;
+}
+)";
+
+/// `bool gnomon_exceeds(vec2 a, float b, vec2 c)`: the same of numbers that no float holds, blends of 16-bit codes: a is a.x + a.y,
+/// a whole or half number below 2^18 and a multiple of 2^-16 below 1. Cost: about 100 operations.
+inline constexpr std::string_view exceeds_blend_text = R"(// the size of v.x + v.y, in units of 2^-16: its whole part and the rest
+uvec2 gnomon_units(vec2 v) {
+    if (v.x + v.y < 0.0) v = -v;
+    float rest = v.x - floor(v.x) + v.y;
+    return uvec2(uint(floor(v.x) + floor(rest)), uint((rest - floor(rest)) * 65536.0));
+}
+
+// n + v * 2^shift, the high word first
+uvec2 gnomon_add_shifted(uvec2 n, uint v, int shift) {
+    uint low = n.y + (v << shift);
+    return uvec2(n.x + (v >> (32 - shift)) + (low < n.y ? 1u : 0u), low);
+}
+
+// n * 2^shift as three words, the highest first
+uvec3 gnomon_shifted(uvec2 n, int shift) {
+    int bits = shift & 31;
+    uvec3 words = uvec3(0u, n.x, n.y);
+    if (bits != 0) words = uvec3(n.x >> (32 - bits), n.x << bits | n.y >> (32 - bits), n.y << bits);
+    return shift < 32 ? words : uvec3(words.y, words.z, 0u);
+}
+
+// a * b > c, exactly; a and c are sums of a number in halves and one in parts of 2^16
+bool gnomon_exceeds(vec2 a, float b, vec2 c) {
+    uint bits = floatBitsToUint(b), y = bits & 0x7FFFFFFFu;
+    bool below = (a.x + a.y < 0.0) != (y != bits), c_below = c.x + c.y < 0.0; // zero, so the product and c
+    uvec2 x = gnomon_units(a), z = gnomon_units(c);
+    bool nothing = (x.x | x.y) == 0u;
+    if (y > 0x7F800000u || (nothing && y == 0x7F800000u)) return false; // not a number
+    if (nothing || y == 0u || below != c_below) return c_below;
+
+    // Beyond 2^35 and before 2^-35 all b are alike. The product of units and the significand, and c, with one last place.
+    y = max(min(y, 0x51000000u), 0x2E000000u);
+    int shift = 150 - int(y >> 23);
+    y = (y & 0x7FFFFFu) | 0x800000u;
+    uvec2 product = uvec2(0u, x.y * (y & 0xFFFu));
+    product = gnomon_add_shifted(product, x.y * (y >> 12), 12);
+    product = gnomon_add_shifted(product, x.x * (y & 0xFFFu), 16);
+    product = gnomon_add_shifted(product, x.x * (y >> 12), 28);
+    uvec3 left = gnomon_shifted(product, max(-shift, 0));
+    uvec3 right = gnomon_shifted(uvec2(z.x >> 16, z.x << 16 | z.y), max(shift, 0));
+    if (left.x != right.x) return (left.x > right.x) != below;
+    if (left.y != right.y) return (left.y > right.y) != below;
+    return below ? left.z < right.z : left.z > right.z;
+}
+)";
+
+/// `float gnomon_half(float v)`: the half nearest to v, ties to even, as a float, so that whichever way a driver rounds what it
+/// stores, it rounds nothing. `uint gnomon_nearest_even(uint v, int bits)`: v / 2^bits to nearest, ties to even, 1 to 31 bits.
+inline constexpr std::string_view half_text = R"(// v / 2^bits to nearest, ties to even
+uint gnomon_nearest_even(uint v, int bits) {
+    uint kept = v >> bits, rest = v - (kept << bits), tie = 1u << (bits - 1);
+    return kept + (rest > tie || (rest == tie && (kept & 1u) != 0u) ? 1u : 0u);
+}
+
+// the half nearest to v, ties to even, which a driver then stores as it is
+float gnomon_half(float v) {
+    uint bits = floatBitsToUint(v), size = bits & 0x7FFFFFFFu, sign = bits ^ size;
+    if (size >= 0x7F800000u) return v;                                           // infinite, or not a number
+    if (size < 0x33000000u) return uintBitsToFloat(sign);                        // less than half of the least half
+    if (size < 0x38800000u) {                                                    // a multiple of 2^-24
+        uint units = gnomon_nearest_even((size & 0x7FFFFFu) | 0x800000u, 126 - int(size >> 23));
+        return (sign != 0u ? -1.0 : 1.0) * float(units) / 16777216.0;
+    }
+    size = gnomon_nearest_even(size, 13) << 13;
+    return uintBitsToFloat(sign | (size >= 0x47800000u ? 0x7F800000u : size)); // beyond the last half is infinity
+}
+)";
+
+/// `uint gnomon_quotient(uvec2 n, uvec2 d)`: n / d rounded down, of numbers of two words, the high one first. \pre the quotient is
+/// less than 2^16, and d less than 2^48
+inline constexpr std::string_view quotient_text = R"(// n / d rounded down, below 2^16; of numbers of two words, the high one first
+uint gnomon_quotient(uvec2 n, uvec2 d) {
+    uint quotient = 0u;
+    for (int bit = 15; bit >= 0; --bit) {
+        uvec2 part = bit == 0 ? d : uvec2(d.x << bit | d.y >> (32 - bit), d.y << bit);
+        if (n.x < part.x || (n.x == part.x && n.y < part.y)) continue;
+        n = uvec2(n.x - part.x - (n.y < part.y ? 1u : 0u), n.y - part.y);
+        quotient |= 1u << bit;
+    }
+    return quotient;
+}
+)";
+
+} // namespace gl
+} // namespace gnomon::inline GNOMON_BUILD

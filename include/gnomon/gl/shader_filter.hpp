@@ -1,0 +1,259 @@
+// gnomon: soft shadow maps. The filter in GLSL: a pass over columns into sums, a pass over those in rows, one rounding.
+#pragma once
+
+#include <gnomon/filter/separable.hpp>
+#include <gnomon/gl/shader_caster.hpp>
+#include <gnomon/gl/shader_exact.hpp>
+
+#include <cstdint>
+#include <type_traits>
+
+namespace gnomon::inline GNOMON_BUILD {
+namespace gl {
+
+/// The kernel that GL filters with. Whole codes: as it is. GL has no double, so half and float are always filtered as by fast<Kernel>;
+/// an engine's rule has filter_roundings<Texel, kernel_in_gl<Texel, Kernel>>.
+template <texel_format Texel, kernel Kernel>
+using kernel_in_gl = std::conditional_t<Texel::channel_type::whole_codes || gnomon::detail::is_fast<Kernel>, Kernel, fast<Kernel>>;
+
+namespace detail {
+
+/// The numbers of a filter in GL, from the plan of filter/separable.hpp.
+template <texel_format Texel, kernel Kernel> struct filter_in_gl {
+    using by = gnomon::detail::sums<Texel, kernel_in_gl<Texel, Kernel>>;
+    using weights_of = typename by::weights_of;
+    static constexpr bool whole_codes = Texel::channel_type::whole_codes, ratio = !Texel::representation_type::premultiplied;
+    static constexpr auto scale = static_cast<std::uint64_t>(Texel::channel_type::scale);
+    static constexpr auto total = static_cast<std::uint64_t>(weights_of::total);
+    /// The largest number that a tap of the first pass and one of the second can be, and what the last sum is divided by.
+    static constexpr std::uint64_t most = ratio ? scale * scale : scale, most_between = by::stored_between ? most : most * total;
+    static constexpr std::uint64_t whole = by::stored_between ? total : total * total;
+    static constexpr bool two_words = whole_codes && most * whole + whole / 2 > 0xFFFFFFFFu; ///< a sum of the second pass
+    /// Small kernels are written out, tap by tap; larger ones are loops over a table of weights.
+    static constexpr bool written_out = Kernel::radius <= 16;
+    static_assert(
+        !whole_codes || most * total <= 0xFFFFFFFFu,
+        "gnomon: sums of this texel and kernel do not fit the scratch of GL; tm16 is for the CPU, in GL take tm8 or rg16");
+};
+
+} // namespace detail
+
+/// The largest number that the first pass leaves to the second, for each channel an unsigned integer; half and float leave a float's
+/// bits. So the scratch is RG16UI, RG32UI, RGBA16UI or RGBA32UI.
+template <texel_format Texel, kernel Kernel>
+inline constexpr std::uint32_t filter_scratch_largest =
+    Texel::channel_type::whole_codes ? static_cast<std::uint32_t>(detail::filter_in_gl<Texel, Kernel>::most_between) : 0xFFFFFFFFu;
+
+namespace detail {
+
+/// "vec2(f(v.x), f(v.y))" from "f(v." and ")"
+template <texel_format Texel> [[nodiscard]] std::string each_component(const std::string& before, const std::string& after) {
+    std::string text = vec<Texel>() + "(";
+    for (int c = 0; c < components<Texel>; ++c) (text += c == 0 ? "" : ", ") += before + "xyzw"[c] + after;
+    return text + ")";
+}
+
+/// `gnomon_add(weight, away)` for every tap, in the order of the taps: floats are summed in it.
+template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string taps_text() {
+    using of = filter_in_gl<Texel, Kernel>;
+    const auto weight = [](int tap) {
+        if constexpr (of::whole_codes)
+            return literal(static_cast<std::uint32_t>(of::weights_of::weights[static_cast<std::size_t>(tap)]));
+        else
+            return literal(of::by::template weight<float>(tap));
+    };
+    const std::string first = literal(-Kernel::radius), last = literal(Kernel::radius);
+    std::string text;
+    if (of::written_out) {
+        for (int tap = 0; tap <= 2 * Kernel::radius; ++tap)
+            text += "    gnomon_add(" + weight(tap) + ", " + literal(tap - Kernel::radius) + ");\n";
+        return text;
+    }
+    return "    for (int away = " + first + "; away <= " + last + "; ++away) gnomon_add(" +
+           (gnomon::detail::is_box<typename of::weights_of> ? weight(0) : "gnomon_weights[abs(away)]") + ", away);\n";
+}
+
+/// The weights from the centre outwards, if taps_text needs a table.
+template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string weights_text() {
+    using of = filter_in_gl<Texel, Kernel>;
+    if (of::written_out || gnomon::detail::is_box<typename of::weights_of>) return "";
+    const std::string array = (of::whole_codes ? "uint[" : "float[") + literal(Kernel::radius + 1) + "]";
+    std::string text = "\nconst " + array + " gnomon_weights = " + array + "(";
+    for (int i = 0; i <= Kernel::radius; ++i) {
+        text += i == 0 ? "" : i % 16 == 0 ? ",\n    " : ", ";
+        if constexpr (of::whole_codes)
+            text += literal(static_cast<std::uint32_t>(of::weights_of::weights[static_cast<std::size_t>(Kernel::radius + i)]));
+        else
+            text += literal(of::by::template weight<float>(Kernel::radius + i));
+    }
+    return text + "); // from the centre outwards\n";
+}
+
+/// "(e, m) of unorm8 by 7 taps"
+template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_name() {
+    using of = filter_in_gl<Texel, Kernel>;
+    return format_name<Texel>() + " by " + literal(2 * Kernel::radius + 1) + " taps of together " +
+           literal(static_cast<int>(of::total));
+}
+
+/// How a texel's channels are read in the first pass: as a linear filter has to see them.
+template <texel_format Texel> [[nodiscard]] std::string linear_text() {
+    if constexpr (!Texel::channel_type::whole_codes) return "texel";
+    const std::string codes = vec<Texel>("u") + "(texel * " + literal(Texel::channel_type::scale) + " + 0.5)";
+    if constexpr (Texel::representation_type::premultiplied) return codes;
+    std::string text = vec<Texel>("u") + "(";
+    for (int c = 0; c < components<Texel>; ++c) {
+        const std::string code = std::string("codes.") + "xyzw"[c];
+        text += (c == 0 ? "" : ", ") + code + (c == Texel::depth_index || c == Texel::far_index ? " * codes.y" : "");
+    }
+    return text + ")";
+}
+
+} // namespace detail
+
+/// The first pass: the weighted sums of the 2R+1 texels above and below, or floats' bits of them, into the unsigned integers of the
+/// scratch. Uniform sampler2D `gnomon_texels`: the map of casters, whose size is the map's; what lies above and below is clear.
+///
+/// To be drawn over the columns that the second pass reads: each rectangle grown by R to the left and right, clipped to the map.
+template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_columns_text() {
+    detail::check_texel<Texel>();
+    static_assert(kernel_is_sound<Kernel>());
+    using of = detail::filter_in_gl<Texel, Kernel>;
+    using detail::vec;
+    std::string text = "// gnomon: columns of " + detail::filter_name<Texel, Kernel>() + R"(
+uniform sampler2D gnomon_texels;
+layout(location = 0) out @uvec gnomon_sums;
+@weights
+@sum gnomon_sum = @zero;
+
+void gnomon_add(@number weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
+    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return;
+    @vec texel = @vec(texelFetch(gnomon_texels, at, 0));
+)";
+    if constexpr (!of::whole_codes)
+        text += "    precise @vec product = weight * texel;\n    gnomon_sum = gnomon_sum + product;\n";
+    else if constexpr (of::ratio)
+        text += "    @uvec codes = @uvec(texel * @scale + 0.5);\n    gnomon_sum += weight * @linear;\n";
+    else
+        text += "    gnomon_sum += weight * @linear;\n";
+    text += "}\n\nvoid main() {\n@taps    gnomon_sums = @result;\n}\n";
+    const std::string result = !of::whole_codes         ? "floatBitsToUint(gnomon_sum)"
+                               : of::by::stored_between ? "(gnomon_sum + @halfu) / @wholeu"
+                                                        : "gnomon_sum";
+    return detail::filled(text, {{"weights", detail::weights_text<Texel, Kernel>()},
+                                 {"taps", detail::taps_text<Texel, Kernel>()},
+                                 {"linear", detail::linear_text<Texel>()},
+                                 {"result", result},
+                                 {"scale", detail::literal(Texel::channel_type::scale)},
+                                 {"half", std::to_string(of::total / 2)},
+                                 {"whole", std::to_string(of::total)},
+                                 {"zero", (of::whole_codes ? vec<Texel>("u") : vec<Texel>()) + "(0)"},
+                                 {"sum", of::whole_codes ? vec<Texel>("u") : "precise " + vec<Texel>()},
+                                 {"number", of::whole_codes ? "uint" : "float"},
+                                 {"uvec", vec<Texel>("u")},
+                                 {"vec", vec<Texel>()}});
+}
+
+namespace detail {
+
+/// What the sums of whole codes become: divided once, to nearest, halves upwards, a ratio down.
+template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string division_text() {
+    using of = filter_in_gl<Texel, Kernel>;
+    constexpr bool shifts = of::whole == std::uint64_t{1} << 32;
+    std::string text;
+    if (of::two_words) {
+        text += "\n// the sums of a channel as two words, the high one first\n"
+                "uvec2 gnomon_words(uint low, uint high) {\n"
+                "    uint word = low + (high << 16);\n"
+                "    return uvec2((high >> 16) + (word < low ? 1u : 0u), word);\n}\n";
+        if (!shifts || of::ratio) text += "\n" + std::string(quotient_text);
+        text += "\n// a share of the whole, to nearest, halves upwards\nuint gnomon_nearest(uvec2 sum) {\n"
+                "    uint word = sum.y + @halfu;\n";
+        text += shifts ? "    return sum.x + (word < sum.y ? 1u : 0u);\n}\n"
+                       : "    return gnomon_quotient(uvec2(sum.x + (word < sum.y ? 1u : 0u), word), uvec2(0u, @wholeu));\n}\n";
+    } else if (of::ratio) {
+        text += "\n// a share of the whole, to nearest, halves upwards\nuint gnomon_nearest(uint sum) { return (sum + @halfu) / "
+                "@wholeu; }\n";
+    }
+    return text;
+}
+
+/// The codes of the second pass, as an expression.
+template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string codes_text() {
+    using of = filter_in_gl<Texel, Kernel>;
+    if constexpr (!of::two_words && !of::ratio) return "(gnomon_sum + @halfu) / @wholeu";
+    const auto sum = [](int c) {
+        const std::string name(1, "xyzw"[c]);
+        return of::two_words ? "gnomon_words(gnomon_low." + name + ", gnomon_high." + name + ")" : "gnomon_sum." + name;
+    };
+    std::string text = vec<Texel>("u") + "(";
+    for (int c = 0; c < components<Texel>; ++c) {
+        const bool depth = of::ratio && (c == Texel::depth_index || c == Texel::far_index);
+        text += c == 0 ? "" : ", ";
+        text += !depth          ? "gnomon_nearest(" + sum(c) + ")"
+                : of::two_words ? "gnomon_quotient(" + sum(c) + ", " + sum(1) + ")"
+                                : sum(c) + " / " + sum(1);
+    }
+    return text + ")";
+}
+
+} // namespace detail
+
+/// The second pass and the last rounding: the map's texels from the sums of the first. Uniform usampler2D `gnomon_sums`: the scratch, as
+/// large as the map; what lies to the left and right of it is clear, and of it no more is read than R columns beside a rectangle.
+template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_rows_text() {
+    detail::check_texel<Texel>();
+    static_assert(kernel_is_sound<Kernel>());
+    using of = detail::filter_in_gl<Texel, Kernel>;
+    using detail::vec;
+    std::string text = "// gnomon: rows of " + detail::filter_name<Texel, Kernel>() + "\n";
+    if (std::is_same_v<typename Texel::channel_type, half16>) text += std::string(half_text) + "\n";
+    text += R"(uniform usampler2D gnomon_sums;
+layout(location = 0) out @vec gnomon_texel;
+@weights@division
+)";
+    text += of::two_words ? "@uvec gnomon_low = @zero, gnomon_high = @zero; // sums of the low and the high 16 bits\n"
+                          : "@sum gnomon_sum = @zero;\n";
+    text += R"(
+void gnomon_add(@number weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
+    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
+    @uvec sums = @uvec(texelFetch(gnomon_sums, at, 0));
+)";
+    text += !of::whole_codes
+                ? "    precise @vec product = weight * uintBitsToFloat(sums);\n    gnomon_sum = gnomon_sum + product;\n"
+            : of::two_words ? "    gnomon_low += weight * (sums & 0xFFFFu);\n    gnomon_high += weight * (sums >> 16);\n"
+                            : "    gnomon_sum += weight * sums;\n";
+    text += "}\n\nvoid main() {\n";
+    text += "@taps";
+    if constexpr (!of::whole_codes) {
+        constexpr auto whole = static_cast<float>(of::by::whole);
+        if (whole < 1.0f || whole > 1.0f) text += "    gnomon_sum = gnomon_sum / " + detail::literal(whole) + ";\n";
+        text += "    gnomon_texel = ";
+        const std::string halves = detail::each_component<Texel>("gnomon_half(gnomon_sum.", ")");
+        text += std::is_same_v<typename Texel::channel_type, half16> ? halves : "gnomon_sum";
+    } else {
+        if (of::ratio)
+            text += std::string("    if (gnomon_nearest(") +
+                    (of::two_words ? "gnomon_words(gnomon_low.y, gnomon_high.y)" : "gnomon_sum.y") +
+                    ") == 0u) {\n        gnomon_texel = @vec(0);\n        return;\n    }\n";
+        text += "    @uvec codes = @codes;\n    gnomon_texel = @vec(codes) / @scale";
+    }
+    text += ";\n}\n";
+    return detail::filled(text, {{"weights", detail::weights_text<Texel, Kernel>()},
+                                 {"division", detail::division_text<Texel, Kernel>()},
+                                 {"taps", detail::taps_text<Texel, Kernel>()},
+                                 {"codes", detail::codes_text<Texel, Kernel>()},
+                                 {"scale", detail::literal(Texel::channel_type::scale)},
+                                 {"half", std::to_string(of::whole / 2)},
+                                 {"whole", std::to_string(of::whole)},
+                                 {"zero", (of::whole_codes ? vec<Texel>("u") : vec<Texel>()) + "(0)"},
+                                 {"sum", of::whole_codes ? vec<Texel>("u") : "precise " + vec<Texel>()},
+                                 {"number", of::whole_codes ? "uint" : "float"},
+                                 {"uvec", vec<Texel>("u")},
+                                 {"vec", vec<Texel>()}});
+}
+
+} // namespace gl
+} // namespace gnomon::inline GNOMON_BUILD

@@ -1,0 +1,74 @@
+// gnomon: casters of unorm8 (t, m)
+// a * b > c, exactly: a product of floats has 48 bits, two limbs of 24
+bool gnomon_exceeds(float a, float b, float c) {
+    uint x = floatBitsToUint(a), y = floatBitsToUint(b), z = floatBitsToUint(c);
+    bool below = ((x ^ y) >> 31) != 0u, c_below = (z >> 31) != 0u; // zero, so the product and c
+    x &= 0x7FFFFFFFu;
+    y &= 0x7FFFFFFFu;
+    z &= 0x7FFFFFFFu;
+    const uint infinity = 0x7F800000u;
+    if (x > infinity || y > infinity || z > infinity) return false; // not a number
+    if (x == infinity || y == infinity) return x != 0u && y != 0u && !below && (c_below || z != infinity);
+    if (x == 0u || y == 0u) return c_below && z != 0u;
+    if (z == 0u) return !below;
+    if (z == infinity || below != c_below) return c_below;
+
+    // The significands, and a * b / 2^24 against c in units of one last place.
+    uint e = max(x >> 23, 1u) + max(y >> 23, 1u), f = max(z >> 23, 1u) + 174u;
+    x = (x & 0x7FFFFFu) | (x >> 23 != 0u ? 0x800000u : 0u);
+    y = (y & 0x7FFFFFu) | (y >> 23 != 0u ? 0x800000u : 0u);
+    z = (z & 0x7FFFFFu) | (z >> 23 != 0u ? 0x800000u : 0u);
+    uint cross = (x >> 12) * (y & 0xFFFu) + (x & 0xFFFu) * (y >> 12);
+    uint low = (x & 0xFFFu) * (y & 0xFFFu) + ((cross & 0xFFFu) << 12);
+    uint high = (x >> 12) * (y >> 12) + (cross >> 12) + (low >> 24);
+    low &= 0xFFFFFFu;
+    if (f <= e) return !below; // c is less than the last place of any product
+    uint shift = f - e;        // of c, to the left
+    if (shift >= 72u) return below;
+    uint c_2 = z >> (24u - shift % 24u), c_1 = (z << (shift % 24u)) & 0xFFFFFFu, c_0 = 0u; // three limbs
+    if (shift < 24u) {
+        c_0 = c_1;
+        c_1 = c_2;
+        c_2 = 0u;
+    } else if (shift >= 48u) {
+        if (c_2 != 0u) return below;
+        c_2 = c_1;
+        c_1 = 0u;
+    }
+    if (high != c_2) return (high > c_2) != below;
+    if (low != c_1) return (low > c_1) != below;
+    return below && c_0 != 0u;
+}
+
+// the code nearest to 255.0 v, halves upwards; 0 if v is not a number
+float gnomon_code(float v) {
+    if (!(v > 0.0)) return 0.0;
+    if (v >= 1.0) return 255.0;
+    float code = floor(255.0 * v + 0.5); // or one beside it
+    if (gnomon_exceeds(-255.0, v, 0.5 - code)) return code - 1.0;
+    return gnomon_exceeds(-255.0, v, -0.5 - code) ? code : code + 1.0;
+}
+
+// the largest code that is not nearer to the light than z
+float gnomon_complement(float z) {
+    if (!(z < 1.0)) return 0.0;
+    if (!(z > 0.0)) return 255.0;
+    float code = floor(255.0 - 255.0 * z); // or one beside it
+    if (gnomon_exceeds(255.0, z, 255.0 - code)) return code - 1.0;
+    return gnomon_exceeds(255.0, z, 255.0 - 1.0 - code) ? code : code + 1.0;
+}
+
+layout(location = 0) out vec2 gnomon_texel;
+
+// what is stored nearer to the light is more, and anything is more than the empty buffer
+void gnomon_order(float complement) { gl_FragDepth = max(complement / 256.0, 2.98023224e-8); }
+
+void gnomon_caster(float s) {
+    float complement = gnomon_complement(s);
+    gnomon_order(complement);
+    gnomon_texel = vec2(complement / 255.0, 1.0);
+}
+
+flat in vec2 gnomon_depth_opacity;
+
+void main() { gnomon_caster(gnomon_depth_opacity.x); }

@@ -1,0 +1,17 @@
+// gnomon: columns of unorm16 (e, m) by 261 taps of together 261
+uniform sampler2D gnomon_texels;
+layout(location = 0) out uvec2 gnomon_sums;
+
+uvec2 gnomon_sum = uvec2(0);
+
+void gnomon_add(uint weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
+    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return;
+    vec2 texel = vec2(texelFetch(gnomon_texels, at, 0));
+    gnomon_sum += weight * uvec2(texel * 65535.0 + 0.5);
+}
+
+void main() {
+    for (int away = -130; away <= 130; ++away) gnomon_add(1u, away);
+    gnomon_sums = gnomon_sum;
+}

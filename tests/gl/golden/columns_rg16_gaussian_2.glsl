@@ -1,0 +1,21 @@
+// gnomon: columns of unorm16 (e, m) by 5 taps of together 65536
+uniform sampler2D gnomon_texels;
+layout(location = 0) out uvec2 gnomon_sums;
+
+uvec2 gnomon_sum = uvec2(0);
+
+void gnomon_add(uint weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
+    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return;
+    vec2 texel = vec2(texelFetch(gnomon_texels, at, 0));
+    gnomon_sum += weight * uvec2(texel * 65535.0 + 0.5);
+}
+
+void main() {
+    gnomon_add(3571u, -2);
+    gnomon_add(16004u, -1);
+    gnomon_add(26386u, 0);
+    gnomon_add(16004u, 1);
+    gnomon_add(3571u, 2);
+    gnomon_sums = gnomon_sum;
+}

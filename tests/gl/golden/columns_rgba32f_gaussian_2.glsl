@@ -1,0 +1,22 @@
+// gnomon: columns of float32 (e, m, far bound, contribution) by 5 taps of together 65536
+uniform sampler2D gnomon_texels;
+layout(location = 0) out uvec4 gnomon_sums;
+
+precise vec4 gnomon_sum = vec4(0);
+
+void gnomon_add(float weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
+    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return;
+    vec4 texel = vec4(texelFetch(gnomon_texels, at, 0));
+    precise vec4 product = weight * texel;
+    gnomon_sum = gnomon_sum + product;
+}
+
+void main() {
+    gnomon_add(0.054489136, -2);
+    gnomon_add(0.24420166, -1);
+    gnomon_add(0.4026184, 0);
+    gnomon_add(0.24420166, 1);
+    gnomon_add(0.054489136, 2);
+    gnomon_sums = floatBitsToUint(gnomon_sum);
+}

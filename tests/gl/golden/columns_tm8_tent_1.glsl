@@ -1,0 +1,20 @@
+// gnomon: columns of unorm8 (t, m) by 3 taps of together 4
+uniform sampler2D gnomon_texels;
+layout(location = 0) out uvec2 gnomon_sums;
+
+uvec2 gnomon_sum = uvec2(0);
+
+void gnomon_add(uint weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
+    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return;
+    vec2 texel = vec2(texelFetch(gnomon_texels, at, 0));
+    uvec2 codes = uvec2(texel * 255.0 + 0.5);
+    gnomon_sum += weight * uvec2(codes.x * codes.y, codes.y);
+}
+
+void main() {
+    gnomon_add(1u, -1);
+    gnomon_add(2u, 0);
+    gnomon_add(1u, 1);
+    gnomon_sums = gnomon_sum;
+}

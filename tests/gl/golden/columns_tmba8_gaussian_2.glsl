@@ -1,0 +1,22 @@
+// gnomon: columns of unorm8 (t, m, far bound, contribution) by 5 taps of together 65536
+uniform sampler2D gnomon_texels;
+layout(location = 0) out uvec4 gnomon_sums;
+
+uvec4 gnomon_sum = uvec4(0);
+
+void gnomon_add(uint weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
+    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return;
+    vec4 texel = vec4(texelFetch(gnomon_texels, at, 0));
+    uvec4 codes = uvec4(texel * 255.0 + 0.5);
+    gnomon_sum += weight * uvec4(codes.x * codes.y, codes.y, codes.z * codes.y, codes.w);
+}
+
+void main() {
+    gnomon_add(3571u, -2);
+    gnomon_add(16004u, -1);
+    gnomon_add(26386u, 0);
+    gnomon_add(16004u, 1);
+    gnomon_add(3571u, 2);
+    gnomon_sums = gnomon_sum;
+}

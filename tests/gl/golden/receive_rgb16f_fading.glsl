@@ -1,0 +1,86 @@
+// gnomon: receivers behind casters of half16 (e, m, far bound)
+// a * b > c, exactly: a product of floats has 48 bits, two limbs of 24
+bool gnomon_exceeds(float a, float b, float c) {
+    uint x = floatBitsToUint(a), y = floatBitsToUint(b), z = floatBitsToUint(c);
+    bool below = ((x ^ y) >> 31) != 0u, c_below = (z >> 31) != 0u; // zero, so the product and c
+    x &= 0x7FFFFFFFu;
+    y &= 0x7FFFFFFFu;
+    z &= 0x7FFFFFFFu;
+    const uint infinity = 0x7F800000u;
+    if (x > infinity || y > infinity || z > infinity) return false; // not a number
+    if (x == infinity || y == infinity) return x != 0u && y != 0u && !below && (c_below || z != infinity);
+    if (x == 0u || y == 0u) return c_below && z != 0u;
+    if (z == 0u) return !below;
+    if (z == infinity || below != c_below) return c_below;
+
+    // The significands, and a * b / 2^24 against c in units of one last place.
+    uint e = max(x >> 23, 1u) + max(y >> 23, 1u), f = max(z >> 23, 1u) + 174u;
+    x = (x & 0x7FFFFFu) | (x >> 23 != 0u ? 0x800000u : 0u);
+    y = (y & 0x7FFFFFu) | (y >> 23 != 0u ? 0x800000u : 0u);
+    z = (z & 0x7FFFFFu) | (z >> 23 != 0u ? 0x800000u : 0u);
+    uint cross = (x >> 12) * (y & 0xFFFu) + (x & 0xFFFu) * (y >> 12);
+    uint low = (x & 0xFFFu) * (y & 0xFFFu) + ((cross & 0xFFFu) << 12);
+    uint high = (x >> 12) * (y >> 12) + (cross >> 12) + (low >> 24);
+    low &= 0xFFFFFFu;
+    if (f <= e) return !below; // c is less than the last place of any product
+    uint shift = f - e;        // of c, to the left
+    if (shift >= 72u) return below;
+    uint c_2 = z >> (24u - shift % 24u), c_1 = (z << (shift % 24u)) & 0xFFFFFFu, c_0 = 0u; // three limbs
+    if (shift < 24u) {
+        c_0 = c_1;
+        c_1 = c_2;
+        c_2 = 0u;
+    } else if (shift >= 48u) {
+        if (c_2 != 0u) return below;
+        c_2 = c_1;
+        c_1 = 0u;
+    }
+    if (high != c_2) return (high > c_2) != below;
+    if (low != c_1) return (low > c_1) != below;
+    return below && c_0 != 0u;
+}
+
+// intensity of the shadow on a receiver at depth z, by the numbers of a filtered texel in codes
+float gnomon_shadow(vec4 texel, float z) {
+    if (!(texel.y > 0.0 && z > 0.0 && !(z > 1.0))) return 0.0;
+    precise float e = (texel.x - 2.9802322e-08) * 0.9995115;
+    precise float m = (texel.y + 2.9802322e-08) * 1.0004885;
+    precise float nearer_z = z - 0.00024420023;
+    if (!(nearer_z < 0.5 ? gnomon_exceeds(m, nearer_z, m - e) : gnomon_exceeds(-m, 1.0 - nearer_z, -e))) return 0.0;
+    precise float e_2 = (texel.z + 2.9802322e-08) * 1.0004885;
+    precise float m_2 = (texel.y + -2.9802322e-08) * 0.9995115;
+    precise float nearer_z_2 = z + 0.00024420023;
+    precise float passed = m_2 * nearer_z_2 - (m_2 - e_2);
+    precise float share = m_2 * 0.25;
+    bool fades = !(share <= 0.0 && share >= 0.0);
+    precise float left = 1.0 - passed / (fades ? share : 1.0);
+    bool bounded = texel.z > 0.0 && (nearer_z_2 < 0.5 ? gnomon_exceeds(m_2, nearer_z_2, m_2 - e_2) : gnomon_exceeds(-m_2, 1.0 - nearer_z_2, -e_2));
+    precise float kept = bounded ? (fades ? (left > 0.0 ? (left < 1.0 ? left : 1.0) : 0.0) : 0.0) : 1.0;
+    return (texel.y > 0.0 ? (texel.y < 1.0 ? texel.y : 1.0) : 0.0) * kept;
+}
+
+// a texel in codes; clear lies off the map
+vec4 gnomon_read(sampler2D map, ivec2 at) {
+    ivec2 size = textureSize(map, 0);
+    if (at.x < 0 || at.y < 0 || at.x >= size.x || at.y >= size.y) return vec4(0);
+    vec4 texel = vec4(texelFetch(map, at, 0));
+    return texel;
+}
+
+// intensity at texel `at` of a map
+float gnomon_shadow(sampler2D map, ivec2 at, float z) { return gnomon_shadow(vec4(gnomon_read(map, at)), z); }
+
+// intensity at a position in texels, blended from four, in steps of 1/256; off the map is lit
+float gnomon_shadow_at(sampler2D map, vec2 position, float z) {
+    vec2 size = vec2(textureSize(map, 0));
+    bool here = position.x > -1.0 && position.y > -1.0 && position.x < size.x + 1.0 && position.y < size.y + 1.0;
+    if (!here) return 0.0; // or no number
+    ivec2 fine = (ivec2(floor(512.0 * position)) - 255) >> 1; // from the centre of texel 0
+    ivec2 at = fine >> 8;
+    uvec2 right = uvec2(fine & 255), left = 256u - right;
+    precise vec4 sum = float(left.x * left.y) * gnomon_read(map, at);
+    sum = sum + float(right.x * left.y) * gnomon_read(map, at + ivec2(1, 0));
+    sum = sum + float(left.x * right.y) * gnomon_read(map, at + ivec2(0, 1));
+    sum = sum + float(right.x * right.y) * gnomon_read(map, at + ivec2(1, 1));
+    return gnomon_shadow(vec4(sum) / 65536.0, z);
+}

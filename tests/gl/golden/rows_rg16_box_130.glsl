@@ -1,0 +1,43 @@
+// gnomon: rows of unorm16 (e, m) by 261 taps of together 261
+uniform usampler2D gnomon_sums;
+layout(location = 0) out vec2 gnomon_texel;
+
+// the sums of a channel as two words, the high one first
+uvec2 gnomon_words(uint low, uint high) {
+    uint word = low + (high << 16);
+    return uvec2((high >> 16) + (word < low ? 1u : 0u), word);
+}
+
+// n / d rounded down, below 2^16; of numbers of two words, the high one first
+uint gnomon_quotient(uvec2 n, uvec2 d) {
+    uint quotient = 0u;
+    for (int bit = 15; bit >= 0; --bit) {
+        uvec2 part = bit == 0 ? d : uvec2(d.x << bit | d.y >> (32 - bit), d.y << bit);
+        if (n.x < part.x || (n.x == part.x && n.y < part.y)) continue;
+        n = uvec2(n.x - part.x - (n.y < part.y ? 1u : 0u), n.y - part.y);
+        quotient |= 1u << bit;
+    }
+    return quotient;
+}
+
+// a share of the whole, to nearest, halves upwards
+uint gnomon_nearest(uvec2 sum) {
+    uint word = sum.y + 34060u;
+    return gnomon_quotient(uvec2(sum.x + (word < sum.y ? 1u : 0u), word), uvec2(0u, 68121u));
+}
+
+uvec2 gnomon_low = uvec2(0), gnomon_high = uvec2(0); // sums of the low and the high 16 bits
+
+void gnomon_add(uint weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
+    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
+    uvec2 sums = uvec2(texelFetch(gnomon_sums, at, 0));
+    gnomon_low += weight * (sums & 0xFFFFu);
+    gnomon_high += weight * (sums >> 16);
+}
+
+void main() {
+    for (int away = -130; away <= 130; ++away) gnomon_add(1u, away);
+    uvec2 codes = uvec2(gnomon_nearest(gnomon_words(gnomon_low.x, gnomon_high.x)), gnomon_nearest(gnomon_words(gnomon_low.y, gnomon_high.y)));
+    gnomon_texel = vec2(codes) / 65535.0;
+}

@@ -1,0 +1,35 @@
+// gnomon: rows of unorm16 (e, m) by 5 taps of together 65536
+uniform usampler2D gnomon_sums;
+layout(location = 0) out vec2 gnomon_texel;
+
+// the sums of a channel as two words, the high one first
+uvec2 gnomon_words(uint low, uint high) {
+    uint word = low + (high << 16);
+    return uvec2((high >> 16) + (word < low ? 1u : 0u), word);
+}
+
+// a share of the whole, to nearest, halves upwards
+uint gnomon_nearest(uvec2 sum) {
+    uint word = sum.y + 2147483648u;
+    return sum.x + (word < sum.y ? 1u : 0u);
+}
+
+uvec2 gnomon_low = uvec2(0), gnomon_high = uvec2(0); // sums of the low and the high 16 bits
+
+void gnomon_add(uint weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
+    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
+    uvec2 sums = uvec2(texelFetch(gnomon_sums, at, 0));
+    gnomon_low += weight * (sums & 0xFFFFu);
+    gnomon_high += weight * (sums >> 16);
+}
+
+void main() {
+    gnomon_add(3571u, -2);
+    gnomon_add(16004u, -1);
+    gnomon_add(26386u, 0);
+    gnomon_add(16004u, 1);
+    gnomon_add(3571u, 2);
+    uvec2 codes = uvec2(gnomon_nearest(gnomon_words(gnomon_low.x, gnomon_high.x)), gnomon_nearest(gnomon_words(gnomon_low.y, gnomon_high.y)));
+    gnomon_texel = vec2(codes) / 65535.0;
+}

@@ -1,0 +1,22 @@
+// gnomon: rows of unorm8 (e, m) by 5 taps of together 16
+uniform usampler2D gnomon_sums;
+layout(location = 0) out vec2 gnomon_texel;
+
+uvec2 gnomon_sum = uvec2(0);
+
+void gnomon_add(uint weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
+    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
+    uvec2 sums = uvec2(texelFetch(gnomon_sums, at, 0));
+    gnomon_sum += weight * sums;
+}
+
+void main() {
+    gnomon_add(1u, -2);
+    gnomon_add(4u, -1);
+    gnomon_add(6u, 0);
+    gnomon_add(4u, 1);
+    gnomon_add(1u, 2);
+    uvec2 codes = (gnomon_sum + 128u) / 256u;
+    gnomon_texel = vec2(codes) / 255.0;
+}

@@ -1,0 +1,22 @@
+// gnomon: rows of float32 (e, m, far bound, contribution) by 5 taps of together 65536
+uniform usampler2D gnomon_sums;
+layout(location = 0) out vec4 gnomon_texel;
+
+precise vec4 gnomon_sum = vec4(0);
+
+void gnomon_add(float weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
+    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
+    uvec4 sums = uvec4(texelFetch(gnomon_sums, at, 0));
+    precise vec4 product = weight * uintBitsToFloat(sums);
+    gnomon_sum = gnomon_sum + product;
+}
+
+void main() {
+    gnomon_add(0.054489136, -2);
+    gnomon_add(0.24420166, -1);
+    gnomon_add(0.4026184, 0);
+    gnomon_add(0.24420166, 1);
+    gnomon_add(0.054489136, 2);
+    gnomon_texel = gnomon_sum;
+}

@@ -1,0 +1,27 @@
+// gnomon: rows of unorm8 (t, m) by 3 taps of together 4
+uniform usampler2D gnomon_sums;
+layout(location = 0) out vec2 gnomon_texel;
+
+// a share of the whole, to nearest, halves upwards
+uint gnomon_nearest(uint sum) { return (sum + 8u) / 16u; }
+
+uvec2 gnomon_sum = uvec2(0);
+
+void gnomon_add(uint weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
+    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
+    uvec2 sums = uvec2(texelFetch(gnomon_sums, at, 0));
+    gnomon_sum += weight * sums;
+}
+
+void main() {
+    gnomon_add(1u, -1);
+    gnomon_add(2u, 0);
+    gnomon_add(1u, 1);
+    if (gnomon_nearest(gnomon_sum.y) == 0u) {
+        gnomon_texel = vec2(0);
+        return;
+    }
+    uvec2 codes = uvec2(gnomon_sum.x / gnomon_sum.y, gnomon_nearest(gnomon_sum.y));
+    gnomon_texel = vec2(codes) / 255.0;
+}

@@ -1,0 +1,196 @@
+#include "../support/filtering.hpp"
+#include "../support/formats.hpp"
+#include "../support/glsl.hpp"
+#include "../support/images.hpp"
+
+#include <gnomon/gl/shader_filter.hpp>
+
+#include <cstdint>
+#include <type_traits>
+
+#include "../support/glsl_begin.inl"
+namespace {
+using namespace test::glsl;
+namespace rg8_binomial {
+namespace columns {
+#include "golden/columns_rg8_binomial_2.glsl"
+}
+namespace rows {
+#include "golden/rows_rg8_binomial_2.glsl"
+}
+} // namespace rg8_binomial
+namespace rg16_gaussian {
+namespace columns {
+#include "golden/columns_rg16_gaussian_2.glsl"
+}
+namespace rows {
+#include "golden/rows_rg16_gaussian_2.glsl"
+}
+} // namespace rg16_gaussian
+namespace rg16_box {
+namespace columns {
+#include "golden/columns_rg16_box_130.glsl"
+}
+namespace rows {
+#include "golden/rows_rg16_box_130.glsl"
+}
+} // namespace rg16_box
+namespace rg16_fast {
+namespace columns {
+#include "golden/columns_rg16_fast_gaussian_2.glsl"
+}
+namespace rows {
+#include "golden/rows_rg16_fast_gaussian_2.glsl"
+}
+} // namespace rg16_fast
+namespace rg16f_tent {
+namespace columns {
+#include "golden/columns_rg16f_tent_2.glsl"
+}
+namespace rows {
+#include "golden/rows_rg16f_tent_2.glsl"
+}
+} // namespace rg16f_tent
+namespace rgba32f_gaussian {
+namespace columns {
+#include "golden/columns_rgba32f_gaussian_2.glsl"
+}
+namespace rows {
+#include "golden/rows_rgba32f_gaussian_2.glsl"
+}
+} // namespace rgba32f_gaussian
+namespace tm8_tent {
+namespace columns {
+#include "golden/columns_tm8_tent_1.glsl"
+}
+namespace rows {
+#include "golden/rows_tm8_tent_1.glsl"
+}
+} // namespace tm8_tent
+namespace tmba8_gaussian {
+namespace columns {
+#include "golden/columns_tmba8_gaussian_2.glsl"
+}
+namespace rows {
+#include "golden/rows_tmba8_gaussian_2.glsl"
+}
+} // namespace tmba8_gaussian
+} // namespace
+#include "../support/glsl_end.inl"
+
+namespace {
+
+using namespace gnomon;
+namespace glsl = test::glsl;
+
+/// A stage of a shader: its main, its sampler, its output, and the sums that a fragment begins with.
+struct columns_stage {
+    void (*main)();
+    glsl::sampler2D* texels;
+    void (*begin)();
+    glsl::uvec4 (*sums)();
+};
+struct rows_stage {
+    void (*main)();
+    glsl::usampler2D* sums;
+    void (*begin)();
+    glsl::vec4 (*texel)();
+};
+
+template <typename T, int N> glsl::vec<T, 4> widened(const glsl::vec<T, N>& v) {
+    glsl::vec<T, 4> made;
+    for (int i = 0; i < N; ++i) made[i] = v[i];
+    return made;
+}
+
+/// An image as GL reads it: channels in [0, 1] as floats.
+template <texel_format Texel> glsl::sampler2D texture(const image<Texel>& from) {
+    return {glsl::ivec2(from.size().width, from.size().height), [&from](glsl::ivec2 at) {
+                glsl::vec4 read;
+                for (int c = 0; c < Texel::channels; ++c) read[c] = Texel::channel_type::decode(from(at.x, at.y).stored[c]);
+                return read;
+            }};
+}
+
+/// Both passes over a whole image. Texels are stored as GL stores them; the scratch must hold what the first pass writes.
+template <texel_format Texel, kernel Kernel>
+image<Texel> filtered_by(const columns_stage& columns, const rows_stage& rows, const image<Texel>& from) {
+    const auto size = from.size();
+    std::vector<glsl::uvec4> sums(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+    const auto at = [&](int x, int y) -> glsl::uvec4& { return sums[static_cast<std::size_t>(y * size.width + x)]; };
+    *columns.texels = texture(from);
+    *rows.sums = {glsl::ivec2(size.width, size.height), [&](glsl::ivec2 p) { return at(p.x, p.y); }};
+    const auto place = [](int x, int y) {
+        glsl::gl_FragCoord = glsl::vec4(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0.0f, 1.0f);
+    };
+    bool fits = true;
+    test::for_each_texel(whole(size), [&](int x, int y) {
+        place(x, y);
+        columns.begin();
+        columns.main();
+        at(x, y) = columns.sums();
+        for (int c = 0; c < Texel::channels; ++c) fits = fits && at(x, y)[c] <= gl::filter_scratch_largest<Texel, Kernel>;
+    });
+    CHECK(fits);
+    image<Texel> to(size);
+    test::for_each_texel(whole(size), [&](int x, int y) {
+        place(x, y);
+        rows.begin();
+        rows.main();
+        for (int c = 0; c < Texel::channels; ++c) {
+            const float v = rows.texel()[c].value;
+            if constexpr (Texel::channel_type::whole_codes || std::is_same_v<Texel, rg32f> || std::is_same_v<Texel, rgba32f>)
+                to(x, y).stored[c] = Texel::channel_type::encode(static_cast<double>(v));
+            else { // a driver may round or cut what it stores as a half: here nothing is left to either
+                to(x, y).stored[c] = half_from(static_cast<double>(v));
+                CHECK(test::glsl::real(half_to_float(to(x, y).stored[c])) == test::glsl::real(v));
+            }
+        }
+    });
+    return to;
+}
+
+template <texel_format Texel, kernel Kernel> void compare(const columns_stage& columns, const rows_stage& rows) {
+    test::dice roll(553);
+    for (const extent size : {extent{1, 1}, extent{3, 2}, extent{23, 17}, extent{300, 5}, extent{4, 290}})
+        for (const int sparseness : {1, 3, 40}) {
+            image<Texel> from = test::noise<Texel>(roll, size, sparseness);
+            if (sparseness == 1) // a full map is where sums are largest
+                test::for_each_texel(whole(size), [&](int x, int y) { from(x, y) = Texel::caster(0.0f); });
+            const int off = glsl::fetched_off_the_map;
+            const auto made = filtered_by<Texel, Kernel>(columns, rows, from);
+            CHECK(test::differences(made, test::dense<gl::kernel_in_gl<Texel, Kernel>>(from)) == 0);
+            CHECK(glsl::fetched_off_the_map == off);
+        }
+}
+
+} // namespace
+
+// A text's stages; lambdas without captures, for a namespace is no argument.
+#define STAGES(space, reset)                                                                                                       \
+    columns_stage{space::columns::main, &space::columns::gnomon_texels, [] { space::columns::gnomon_sum = {}; },                   \
+                  [] { return widened(space::columns::gnomon_sums); }},                                                            \
+        rows_stage {                                                                                                               \
+        space::rows::main, &space::rows::gnomon_sums, [] { reset; }, [] { return widened(space::rows::gnomon_texel); }             \
+    }
+#define ONE_WORD(space) STAGES(space, space::rows::gnomon_sum = {})
+#define TWO_WORDS(space) STAGES(space, space::rows::gnomon_low = {}; space::rows::gnomon_high = {})
+
+TEST_CASE("a map of bytes is filtered in GLSL as by the scalar filter") { compare<rg8, binomial<2>>(ONE_WORD(rg8_binomial)); }
+TEST_CASE("sums of two words in GLSL, divided by a power of two, are those of the scalar filter") {
+    compare<rg16, gaussian<2>>(TWO_WORDS(rg16_gaussian));
+}
+TEST_CASE("sums of two words in GLSL, divided by anything, are those of the scalar filter") {
+    compare<rg16, box<130>>(TWO_WORDS(rg16_box));
+}
+TEST_CASE("a fast filter of 16 bits rounds between the passes in GLSL as on the CPU") {
+    compare<rg16, fast<gaussian<2>>>(ONE_WORD(rg16_fast));
+}
+TEST_CASE("halves are filtered in GLSL as by the fast filter, and leave nothing for a driver to round") {
+    compare<rg16f, tent<2>>(ONE_WORD(rg16f_tent));
+}
+TEST_CASE("floats are filtered in GLSL as by the fast filter") { compare<rgba32f, gaussian<2>>(ONE_WORD(rgba32f_gaussian)); }
+TEST_CASE("a ratio of depth and mask is filtered in GLSL as by the scalar filter") { compare<tm8, tent<1>>(ONE_WORD(tm8_tent)); }
+TEST_CASE("a ratio of sums of two words is that of the scalar filter, bound and contribution with it") {
+    compare<test::ratio_rgba8, gaussian<2>>(TWO_WORDS(tmba8_gaussian));
+}
