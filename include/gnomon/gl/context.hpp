@@ -71,10 +71,13 @@ struct context {
 
     /// Has the GPU forgotten everything? Then names mean nothing any more: `forget()` objects, and make them anew in a new context.
     /// False where a context cannot tell (GL before 4.5, ES before 3.2, but for WebGL); drawing there just goes nowhere.
+    /// Reads an error flag in OpenGL ES.
     [[nodiscard]] bool lost() const noexcept;
 
     /// Reads GL's error flags, all of them, and says what `doing` met. Empty if no flag was set.
     [[nodiscard]] problem check(std::string_view doing) const;
+    /// Reads GL's error flags, so that what another left there is not taken for ours. Returns the first.
+    unsigned drop_errors() const noexcept;
 };
 
 namespace detail {
@@ -167,15 +170,20 @@ inline bool context::lost() const noexcept {
     return error == enums::context_lost || error == enums::context_lost_webgl;
 }
 
-inline problem context::check(std::string_view doing) const {
+inline unsigned context::drop_errors() const noexcept {
     unsigned first = enums::no_error;
     for (int flags = 0; flags < 16; ++flags) { // a lost context may answer with errors for ever
         const unsigned error = gl->GetError();
         if (error == enums::no_error) break;
         if (first == enums::no_error) first = error;
     }
-    if (first == enums::no_error) return {};
-    return problem{"gnomon: " + std::string(doing) + ": " + detail::error_name(first)};
+    return first;
+}
+
+inline problem context::check(std::string_view doing) const {
+    const unsigned error = drop_errors();
+    if (error == enums::no_error) return {};
+    return problem{"gnomon: " + std::string(doing) + ": " + detail::error_name(error)};
 }
 
 } // namespace gl

@@ -65,9 +65,9 @@ inline constexpr unsigned front = 0x0404, back_face = 0x0405, front_and_back = 0
 /// @name How texels lie in the host's memory: PixelStorei's names
 /// @{
 inline constexpr unsigned unpack_alignment = 0x0CF5, unpack_row_length = 0x0CF2, unpack_skip_rows = 0x0CF3, unpack_skip_pixels = 0x0CF4,
-    unpack_image_height = 0x806E, unpack_skip_images = 0x806D, unpack_swap_bytes = 0x0CF0, unpack_lsb_first = 0x0CF1;
+    unpack_swap_bytes = 0x0CF0, unpack_lsb_first = 0x0CF1;
 inline constexpr unsigned pack_alignment = 0x0D05, pack_row_length = 0x0D02, pack_skip_rows = 0x0D03, pack_skip_pixels = 0x0D04,
-    pack_image_height = 0x806C, pack_skip_images = 0x806B, pack_swap_bytes = 0x0D00, pack_lsb_first = 0x0D01;
+    pack_swap_bytes = 0x0D00, pack_lsb_first = 0x0D01;
 /// @}
 // clang-format on
 

@@ -142,6 +142,34 @@ template <texel_format Texel> [[nodiscard]] std::string encode_text() {
     return filled(text, {{"scale", literal(scale)}, {"half", literal(0.5f * (scale + 1.0f))}});
 }
 
+/// gnomon_order: what a depth buffer of 32-bit floats keeps of a surface. What is stored nearer to the light is more, of two at one
+/// stored depth the more opaque; and anything is more than the empty buffer, which holds 0.
+///
+/// A float in [2^-126, 1] is one of 126 * 2^23 numbers, so there is room for any two codes of unorm8 or half16; of unorm16 and float32
+/// for the depth and for 13 or nearly 6 bits of the contribution.
+template <texel_format Texel> [[nodiscard]] std::string order_text() {
+    using channel_type = typename Texel::channel_type;
+    constexpr bool whole = channel_type::whole_codes;
+    if constexpr (!Texel::effects.translucency) {
+        return filled("\n// what is stored nearer to the light is more, and anything is more than the empty buffer\n"
+                      "void gnomon_order(float complement) { gl_FragDepth = max(complement@order, 2.98023224e-8); }\n",
+                      {{"order", whole ? " / " + literal(channel_type::scale + 1.0f) : ""}});
+    } else {
+        std::string text =
+            "\n// what is stored nearer to the light is more, of equals the more opaque; anything is more than the empty "
+            "buffer\n";
+        if (std::same_as<channel_type, half16>)
+            text += "uint gnomon_rank(float v) { return v > 0.0 ? (floatBitsToUint(v) >> 13) - 105471u : 0u; } // of halves in [0, "
+                    "1]\n";
+        return text + "void gnomon_order(float complement, float contribution) {\n    gl_FragDepth = uintBitsToFloat(0x800000u + " +
+               (std::same_as<channel_type, half16>    ? "gnomon_rank(complement) * 24578u + gnomon_rank(contribution)"
+                : std::same_as<channel_type, float32> ? "uint(complement * 16777216.0) * 62u + uint(contribution * 61.0)"
+                : std::same_as<channel_type, unorm16> ? "uint(complement) * 8192u + uint(contribution) / 8u"
+                                                      : "uint(complement) * 256u + uint(contribution)") +
+               ");\n}\n";
+    }
+}
+
 } // namespace detail
 
 /// What a fragment of a caster or of a receiver that bounds calls, for an engine's own fragment shader:
@@ -152,8 +180,8 @@ template <texel_format Texel> [[nodiscard]] std::string encode_text() {
 ///
 /// Each writes the output `gnomon_texel` at location 0, to the very code that the scalar function stores, and gl_FragDepth, whose
 /// order is that of the stored codes: state must be GREATER on a 32-bit float depth buffer cleared to 0 for casters; LEQUAL, depth
-/// writes off, only the far channel's colour mask, and blending MAX for bounds. Of surfaces at one stored depth the first stays.
-/// Float texels: within the precision of the driver's subtraction, and opacities below 2^-126 may be none.
+/// writes off, only the far channel's colour mask, and blending MAX for bounds. Of surfaces at one stored depth the more opaque
+/// stays, and the first of two whose contributions are within 1/8192 in unorm16, or 1/61 in float32. Float texels: within the precision of the driver's subtraction, and opacities below 2^-126 may be none.
 template <texel_format Texel> [[nodiscard]] std::string caster_text() {
     detail::check_texel<Texel>();
     using channel_type = typename Texel::channel_type;
@@ -168,39 +196,36 @@ template <texel_format Texel> [[nodiscard]] std::string caster_text() {
         return text + ')';
     };
     std::string text = "// gnomon: casters of " + detail::format_name<Texel>() + "\n" + detail::encode_text<Texel>();
+    text += detail::filled("\nlayout(location = 0) out @vec gnomon_texel;\n", {{"vec", four ? "vec4" : "vec2"}});
+    text += detail::order_text<Texel>();
     text += detail::filled(R"(
-layout(location = 0) out @vec gnomon_texel;
-
-// what is stored nearer to the light is more, and anything is more than the empty buffer
-void gnomon_order(float complement) { gl_FragDepth = max(complement@order, 2.98023224e-8); }
-
 void gnomon_caster(float s) {
     float complement = gnomon_complement(s);
-    gnomon_order(complement);
+    gnomon_order(complement@most);
     gnomon_texel = @opaque;
 }
 )",
-                           {{"vec", four ? "vec4" : "vec2"},
-                            {"order", whole ? " / " + detail::literal(channel_type::scale + 1.0f) : ""},
+                           {{"most", Texel::effects.translucency ? ", " + detail::literal(channel_type::scale) : ""},
                             {"opaque", make("complement@share", "1.0", "0.0", "1.0")}});
     if (Texel::effects.translucency)
         text += detail::filled(R"(
 void gnomon_caster(float s, float opacity) {
-    float complement = gnomon_complement(s);
-    gnomon_order(complement);
+    float complement = gnomon_complement(s), contribution = gnomon_code(opacity);
+    gnomon_order(complement, contribution);
     gnomon_texel = @translucent;
 }
 )",
-                               {{"translucent", make("complement@share", "1.0", "0.0", "gnomon_code(opacity)@share")}});
+                               {{"translucent", make("complement@share", "1.0", "0.0", "contribution@share")}});
     if (Texel::effects.far_bound)
-        text += detail::filled(R"(
+        text += detail::filled(
+            R"(
 void gnomon_bound(float z) {
     float complement = gnomon_complement(z);
-    gnomon_order(complement);
+    gnomon_order(complement@least);
     gnomon_texel = @bound;
 }
 )",
-                               {{"bound", make("0.0", "0.0", "complement@share", "0.0")}});
+            {{"least", Texel::effects.translucency ? ", 0.0" : ""}, {"bound", make("0.0", "0.0", "complement@share", "0.0")}});
     return detail::filled(text, {{"share", whole ? " / " + detail::literal(channel_type::scale) : ""}});
 }
 
