@@ -278,15 +278,15 @@ TEST_CASE("an engine's own draws find their framebuffer bound, and depths, blend
     for (const auto& [drawn, culled] :
          {std::pair{gl::faces_drawn::both, 0u}, {gl::faces_drawn::facing, back_face}, {gl::faces_drawn::averted, front}})
         map.bound(
-            [&, culled = culled](const gl::map_targets& target) {
+            [&, cull = culled](const gl::map_targets& target) {
                 ++calls;
                 CHECK(state(draw_framebuffer_binding) == target.into_casters);
                 CHECK(state(depth_func) == lequal);
                 CHECK(state(depth_writemask) == 0);
                 CHECK(state(blend) == 1);
                 CHECK(state(blend_equation_rgb) == blend_max);
-                CHECK(state(cull_face) == (culled != 0 ? 1u : 0u));
-                if (culled != 0) CHECK(state(cull_face_mode) == culled);
+                CHECK(state(cull_face) == (cull != 0 ? 1u : 0u));
+                if (cull != 0) CHECK(state(cull_face_mode) == cull);
                 CHECK(b.fake.get(color_writemask) == test::fake_gl::values{0, 0, 1, 0});
             },
             drawn);

@@ -127,9 +127,9 @@ template <texel_format Texel, kernel Kernel> class passes {
         problem why;
         const auto take = [&](pass_program& into, std::string_view vertex, const std::string& fragment, auto... samplers) {
             result<pass_program> one = pass_program::make(c, vertex, fragment, {samplers...});
-            if (!one) return why = one.error(), false;
-            into = *std::move(one);
-            return true;
+            if (one) into = *std::move(one);
+            why = one.error();
+            return !why;
         };
         bool all = take(clear_, rectangles_vertex_text, clear_text()) &&
                    take(cast_, surfaces_vertex_text, caster_rectangles_text<Texel>()) &&

@@ -17,6 +17,7 @@
 
 #include <concepts>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -120,6 +121,9 @@ template <texel_format Texel, kernel Kernel, gl::state_policy Policy> class soft
         filtered_ = now;
     }
 
+    /// The same: there is nothing for an executor to do.
+    template <executor On> void filter(On&&) noexcept { filter(); }
+
     [[nodiscard]] float shadow(int x, int y, float z) const noexcept {
         return whole(size()).contains(x, y) ? gnomon::shadow(soft()(x, y), z, decision) : 0.0f;
     }
@@ -141,9 +145,19 @@ template <texel_format Texel, kernel Kernel, gl::state_policy Policy> class soft
         for (int i = 0; i < intensity.size(); ++i) intensity[i] = 0.0f;
     }
 
+    template <typename Z, typename Intensity, typename On>
+    void receive(image_view<Z> z, image_view<Intensity> intensity, On&& on) const {
+        gnomon::receive(scalar{}, soft(), z, intensity, decision, on);
+    }
+
     [[nodiscard]] bool reaches(texel_rect footprint, depth_interval depth = {}) const noexcept {
         return casters_reach(tiles_, footprint, depth, decision.caster.towards);
     }
+
+    /// What an engine's fragment shaders call, after a glsl_header: gnomon_caster and gnomon_bound; and gnomon_shadow, which decides as
+    /// `decision` does now.
+    [[nodiscard]] static std::string caster_text() { return gl::caster_text<Texel>(); }
+    [[nodiscard]] std::string receiver_text() const { return gl::receive_text<Texel>(decision); }
 
     /// @name Names of GL; 0 where there is a problem, or no texel.
     /// @{
