@@ -162,8 +162,10 @@ template <state_policy Policy> class backend_of {
         using pass = detail::receive_bits<Texel, Points>;
         const auto run = made_->programs.template get<pass>([&] { return pass::make(context_); });
         if (!run) return run.error();
-        for (int i = 0; i < count; ++i) intensity[i] = 0.0f;
-        if (count == 0 || map_size.empty()) return {};
+        if (count == 0 || map_size.empty()) {
+            for (int i = 0; i < count; ++i) intensity[i] = 0.0f;
+            return {};
+        }
         const extent lines = detail::lines_of(count);
         const state_guard<Policy> forced(context_);
         image<Texel> texels(map_size, Texel::clear());

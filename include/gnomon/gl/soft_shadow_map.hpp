@@ -31,7 +31,8 @@ namespace gnomon::inline GNOMON_BUILD {
 /// nothing and is lit everywhere. Move-only.
 ///
 /// Rectangles are collected, and drawn by as few calls as order allows. shadow, receive and soft read the filtered map back, once for
-/// each filter, which waits for the GPU: for tools and tests; an engine's shader reads soft_texture().
+/// each filter, which waits for the GPU: for tools and tests; an engine's shader reads soft_texture(). Once one of them was called, any
+/// number of threads may read until the next filter.
 template <texel_format Texel, kernel Kernel, gl::state_policy Policy> class soft_shadow_map<Texel, Kernel, gl::backend_of<Policy>> {
   public:
     using backend_type = gl::backend_of<Policy>;
