@@ -189,7 +189,12 @@ TEST_CASE("shapes in a few words: nothing, everything, a cross, a checkerboard")
     grid.mark(whole(grid.size()));
     CHECK(merged(grid) == rects{{0, 0, 96, 96}});
     CHECK(merged_greedily(grid) == rects{{0, 0, 96, 96}});
-    grid.clear();
+    grid = tile_grid({96, 40}, 1); // two words a row, and all rows in one
+    grid.mark({0, 0, 1, 40});
+    grid.mark({80, 10, 90, 30});
+    CHECK(merged(grid) == rects{{0, 0, 1, 40}, {80, 10, 90, 30}});
+    CHECK(merged_greedily(grid) == rects{{0, 0, 1, 40}, {80, 10, 90, 30}});
+    grid = tile_grid({96, 96}, 1);
     for (int y = 0; y < 96; ++y)
         for (int x = y % 2; x < 96; x += 2) grid.mark({x, y, x + 1, y + 1});
     CHECK(merged(grid).size() == 96 * 96 / 2);

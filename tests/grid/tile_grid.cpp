@@ -248,6 +248,18 @@ TEST_CASE("dilating holds at least what marking with a wider guard band would ha
     }
 }
 
+TEST_CASE("a mark at the left edge dilates into no other row's right edge") {
+    tile_grid grid({128, 4}, 1); // two whole words a row
+    oracle truth({128, 4}, 1);
+    for (const texel_rect r : {texel_rect{30, 0, 31, 1}, {0, 1, 1, 2}, {127, 3, 128, 4}}) {
+        grid.mark(r);
+        truth.mark(r, 0);
+    }
+    grid.dilate(1);
+    truth.dilate(1);
+    CHECK(differences(grid, truth) == 0);
+}
+
 TEST_CASE("dilating by any number of tiles ends, and without marks does nothing") {
     tile_grid grid({100, 50}, 10);
     for (const int tiles : {lowest, -1, 0, 1, highest}) grid.dilate(tiles);
@@ -257,6 +269,9 @@ TEST_CASE("dilating by any number of tiles ends, and without marks does nothing"
     for (const int tiles : {lowest, -1, 0}) grid.dilate(tiles);
     CHECK(grid.count() == 4);
     CHECK(grid.guard() == 1);
+    tile_grid far = grid;
+    far.dilate(highest / 10);
+    CHECK(far.guard() == highest / 10 * 10 + 1); // the widest that is no more than an int holds
     grid.dilate(highest);
     CHECK(grid.count() == 50);
     CHECK(grid.bounds() == whole(grid.size()));
@@ -277,6 +292,7 @@ TEST_CASE("a cleared grid is a new one") {
 
 TEST_CASE("a grid without a map has no tiles and takes every call") {
     tile_grid grid;
+    CHECK(differences(grid, oracle({0, 0}, 1)) == 0);
     CHECK(grid.mark({0, 0, 9, 9}, 3) == tile_rect{});
     grid.dilate(2);
     grid.clear();

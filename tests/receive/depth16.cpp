@@ -103,6 +103,9 @@ TEST_CASE("a bias moves a depth of 16 bits by whole codes, rounded up, and never
     CHECK(of_depth(10.5f / 65535.0f, bias_towards::light) == 11);
     CHECK(of_depth(10.5f / 65535.0f, bias_towards::shadow) == -11);
     CHECK(of_depth(-10.5f / 65535.0f, bias_towards::light) == -10);
+    CHECK(of_depth(0x1p-9f / 65535.0f, bias_towards::light) == 0); // up but for 1/256 of one
+    CHECK(of_depth(0x1.8p-8f / 65535.0f, bias_towards::light) == 1);
+    CHECK(codes_towards_light<rg16>({.depth = 0.25f / 65535.0f}) == 2); // the caster's half, the receiver's half, a quarter
     CHECK(of_depth(1.0f, bias_towards::light) == 65535);
     constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     for (const float far_off : {3.0f, 1e30f, inf}) {

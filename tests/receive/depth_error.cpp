@@ -56,6 +56,16 @@ TEST_CASE("depth_error is the farthest depth that each of the 32895 pairs of rg8
     CHECK(wrong.report() == "");
 }
 
+TEST_CASE("depth_error has in it what a caster_depth half way between two floats was rounded by") {
+    sweep wrong;
+    for (int n = 1; n < 1 << 23; n += 4 * 1023) { // 1 - t is rounded to the even float, half of 2^-24 away from the light
+        const rg32f texel{{static_cast<float>(n) * 0x1p-25f, 1.0f}};
+        const double most = n * 0x1p-25 * (1.0 + 0x1p-24) / (1.0 - 0x1p-24); // of t: both numbers were rounded once
+        wrong.unless(static_cast<double>(depth_error(texel)) >= most - (1.0 - static_cast<double>(caster_depth(texel))), "n", n);
+    }
+    CHECK(wrong.report() == "");
+}
+
 TEST_CASE_TEMPLATE("one depth in the footprint comes back within depth_error of it and nearly that far off", Texel,
                    EVERY_PLAIN_TEXEL) {
     const double worst =
@@ -92,6 +102,18 @@ TEST_CASE_TEMPLATE("a ratio of two casters is within one code of their mean and 
     CHECK(worst > 0.98 * code);
 }
 
+TEST_CASE_TEMPLATE("a ratio is in doubt by a code a rounding at every mask, and by no more than the range", Texel, tm8, tm16) {
+    const double scale = static_cast<double>(Texel::channel_type::scale);
+    for (const int covered : {1, 128, 255})
+        for (const int roundings : {0, 1, 2, 3}) {
+            const double error =
+                static_cast<double>(depth_error(test::filtered(Texel::caster(0.25f), covered, 255), roundings)) * scale;
+            CHECK(error >= roundings);
+            CHECK(error <= roundings + scale * 0x1p-23);
+        }
+    CHECK(test::same_bits(depth_error(Texel::caster(0.25f), 65536), 1.0f));
+}
+
 TEST_CASE_TEMPLATE("an empty mask, one that may have been empty, and NaN know nothing", Texel, rg8, rg32f, tm8, test::paper8) {
     CHECK(test::same_bits(depth_error(Texel::clear()), 1.0f));
     CHECK(test::same_bits(depth_error(filtered<Texel>{{test::nan<double>, 0.5}}), 1.0f));
@@ -100,6 +122,7 @@ TEST_CASE_TEMPLATE("an empty mask, one that may have been empty, and NaN know no
     CHECK(depth_error(Texel::caster(0.5f), 0) <= (Texel::representation_type::premultiplied ? 0x1p-23f : 0.004f));
     CHECK(test::same_bits(depth_error(rg8{{3, 4}}, 8), 1.0f)); // 4 codes of which 4 are doubt
     CHECK(test::same_bits(depth_error(rg8{{3, 4}}, -1), depth_error(rg8{{3, 4}}, 0)));
+    CHECK(test::same_bits(depth_error(read(rg8{{100, 200}})), depth_error(rg8{{100, 200}}, 1)));
 }
 
 TEST_CASE("mask_threshold is the last column of the table in numerics section 3") {
@@ -110,9 +133,19 @@ TEST_CASE("mask_threshold is the last column of the table in numerics section 3"
     CHECK(mask_threshold<rg16, 1024> == doctest::Approx(0.0156).epsilon(0.02));
     CHECK(mask_threshold<rg16f, 512> <= 0x1p-14f);
     CHECK(mask_threshold<tm8, 255> == doctest::Approx(0.5 / 255.0)); // the least mask that is stored at all
+    CHECK(mask_threshold<rg8, 1> == doctest::Approx(1.0 / 255.0));
     // and depth_error keeps it: from that mask on, at the near plane
     for (int m = 64; m <= 255; ++m) {
         const rg8 texel{{static_cast<std::uint8_t>(m), static_cast<std::uint8_t>(m)}};
         CHECK(static_cast<double>(depth_error(texel)) <= 1.0 / 64.0 + 0x1p-20);
     }
 }
+
+namespace {
+/// Into how many depths is the most that a texel tells?
+template <typename Texel, int Steps>
+constexpr bool tells_at_most = detail::depth_steps<Texel, Steps>::told && !detail::depth_steps<Texel, Steps + 1>::told;
+
+static_assert(tells_at_most<rg8, 255> && tells_at_most<rg16, 65535> && tells_at_most<tm8, 255> && tells_at_most<tm16, 65535>);
+static_assert(tells_at_most<rg16f, 1023>, "both numbers of a pair are wrong by up to 2^-11 of themselves");
+} // namespace

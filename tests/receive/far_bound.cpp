@@ -49,6 +49,9 @@ TEST_CASE("a hard far bound ends the shadow behind it and a soft one fades it ou
             0x1p-24 * expected + (fade > 0.0f ? 0x1p-40 / static_cast<double>(fade) : 0.0); // one rounding to float
         wrong.unless(std::abs(static_cast<double>(shadow(texel, z, r)) - expected) <= tolerance, "E", e, "M", m, "F", f, "z", z,
                      "fade", fade);
+        const int code = shadow_as<std::uint16_t>(read(texel), z, r);
+        wrong.unless(std::abs(code - 65535.0 * expected) <= 0.5 + 65535.0 * tolerance, "code: E", e, "M", m, "F", f, "z", z, "fade",
+                     fade);
     }
     CHECK(wrong.report() == "");
 }
@@ -84,6 +87,20 @@ TEST_CASE_TEMPLATE("behind the far bound the shadow is over as soon as a caster 
         wrong.unless(test::same_bits(shadow(texel, over), 0.0f), "s", s, "f", f, "z", over, "covered", covered, "of", taps);
     }
     CHECK(wrong.report() == "");
+}
+
+TEST_CASE_TEMPLATE("a fade over nothing, less than nothing or NaN ends the shadow at once, even where a mask is all doubt", Texel,
+                   rgb8, rgb16, test::ratio_rgba8) {
+    for (const double share : {1.0, 0x1p-10}) { // of one code, so that a bias towards shadow leaves less than no mask
+        filtered<Texel> faint = read(bounded<Texel>(0.25f, 0.5f, 1, static_cast<int>(Texel::channel_type::scale)));
+        for (double& code : faint.code) code *= share;
+        for (const float fade : {0.0f, -0.0f, -0.5f, -test::infinity<float>, test::nan<float>}) {
+            const rule r{.caster = towards_shadow, .far_bound = towards_shadow, .fade = fade};
+            CAPTURE(share);
+            CAPTURE(fade);
+            CHECK(test::same_bits(shadow_as<float>(faint, 0.875f, r), 0.0f));
+        }
+    }
 }
 
 TEST_CASE_TEMPLATE("a shadow that no receiver bounds never ends", Texel, EVERY_BOUNDED_TEXEL) {

@@ -41,6 +41,12 @@ template <typename Texel> std::vector<receiver<Texel>> some_receivers(int count)
 static_assert(texel_row<std::vector<rg8>> && texel_row<std::array<const rg8, 2>> && texel_row<strided_span<const rgba16f>>);
 static_assert(!texel_row<std::vector<float>> && !texel_row<std::vector<unorm8>>);
 
+template <typename... Images>
+concept can_receive = requires(Images... images) { receive(images...); };
+static_assert(can_receive<image_view<const rg8>, image_view<const float>, image_view<float>>);
+static_assert(!can_receive<image_view<const rg8>, image_view<const double>, image_view<float>>, "a depth is float or 16 bits");
+static_assert(!can_receive<image_view<const float>, image_view<const float>, image_view<float>>, "a map is of texels");
+
 } // namespace
 
 TEST_CASE_TEMPLATE("a row of receivers equals each receiver alone and the shortest span counts", Texel, rg8, rg16f, rgba16, rgba32f,
@@ -119,13 +125,16 @@ TEST_CASE_TEMPLATE("receivers anywhere equal a sample and a decision and off the
         y.push_back(i % 7 == 0 ? dice.any() : dice.unit() * 11.0f - 2.0f);
         z.push_back(dice.unit());
     }
-    std::vector<float> intensity(x.size(), untouched);
-    receive(map.view(), x, y, strided_span<const float>(z.data(), 1'900), intensity, decision);
     sweep wrong;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        const bool off = !(x[i] >= -0.5f && x[i] <= 7.5f && y[i] >= -0.5f && y[i] <= 6.5f);
-        const float expected = i >= 1'900 ? untouched : (off ? 0.0f : shadow(sample(map.view(), x[i], y[i]), z[i], decision));
-        wrong.unless(test::same_bits(intensity[i], expected), "x", x[i], "y", y[i], "z", z[i]);
+    for (int shortest = 0; shortest < 4; ++shortest) {
+        std::vector<float> intensity(x.size(), untouched);
+        const auto first = [shortest](auto& all, int index) { return strided_span(all.data(), index == shortest ? 1'900 : 2'000); };
+        receive(map.view(), first(x, 0), first(y, 1), first(z, 2), first(intensity, 3), decision);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const bool off = !(x[i] >= -0.5f && x[i] <= 7.5f && y[i] >= -0.5f && y[i] <= 6.5f);
+            const float expected = i >= 1'900 ? untouched : (off ? 0.0f : shadow(sample(map.view(), x[i], y[i]), z[i], decision));
+            wrong.unless(test::same_bits(intensity[i], expected), "x", x[i], "y", y[i], "z", z[i], "shortest", shortest);
+        }
     }
     CHECK(wrong.report() == "");
 }

@@ -59,6 +59,13 @@ template <typename Word> struct basic_bit_row {
         return next_clear(first) == last && (first == 0 || !test(first - 1));
     }
 
+    /// Holds it the same bits as another? \pre both are as long
+    [[nodiscard]] constexpr bool repeats(basic_bit_row other) const noexcept {
+        for (int w = 0; w < words_for(size); ++w)
+            if (words[w] != other.words[w]) return false;
+        return true;
+    }
+
   private:
     /// Calls f(word index, mask) for the words of a span until f answers false; answers whether none did.
     template <typename F> constexpr bool for_each_word(int first, int last, F&& f) const {

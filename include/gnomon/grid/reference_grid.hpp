@@ -83,7 +83,6 @@ class reference_grid {
 
     void clear() noexcept {
         tiles_.clear();
-        box_ = {};
         any_ = false;
     }
 
@@ -96,11 +95,11 @@ class reference_grid {
         return {tile(r.x0, map_.width), tile(r.y0, map_.height), tile(r.x1, map_.width) + 1, tile(r.y1, map_.height) + 1};
     }
 
-    extent map_{};
-    int reach_ = 0;
-    int guard_ = 0;
+    extent map_;
+    int reach_;
+    int guard_;
     tile_grid tiles_;
-    real_rect box_{};
+    real_rect box_{}; ///< of the casters, if there are any
     bool any_ = false;
 };
 

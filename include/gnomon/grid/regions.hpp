@@ -13,21 +13,19 @@ namespace gnomon::inline GNOMON_BUILD {
 /// So no two rectangles could be joined into one. Keeps no state: the grid may be shared between readers. Cost: the occupied rows.
 template <typename F> void for_each_tile_rect(const tile_grid& grid, F&& f) {
     const auto holds = [&grid](int y, int first, int last) { return y >= 0 && y < grid.rows() && grid.row(y).is_run(first, last); };
-    const auto repeats_the_last = [&grid](int y) {
-        int w = 0;
-        while (w < words_for(grid.columns()) && grid.row(y).words[w] == grid.row(y - 1).words[w]) ++w;
-        return w == words_for(grid.columns());
+    const auto begin_in = [&](int y) {
+        grid.row(y).for_each_run([&](int first, int last) {
+            if (holds(y - 1, first, last)) return; // part of a rectangle that began below
+            int end = y;
+            do ++end;
+            while (holds(end, first, last));
+            f(tile_rect{first, y, last, end});
+        });
     };
     grid.occupied_rows().for_each_run([&](int first_row, int last_row) {
-        for (int y = first_row; y < last_row; ++y) {
-            if (y > first_row && repeats_the_last(y)) continue; // nothing begins
-            grid.row(y).for_each_run([&](int first, int last) {
-                if (holds(y - 1, first, last)) return; // part of a rectangle that began below
-                int end = y + 1;
-                while (holds(end, first, last)) ++end;
-                f(tile_rect{first, y, last, end});
-            });
-        }
+        begin_in(first_row);
+        for (int y = first_row + 1; y < last_row; ++y)
+            if (!grid.row(y).repeats(grid.row(y - 1))) begin_in(y); // in a row like the last one nothing begins
     });
 }
 
@@ -52,8 +50,8 @@ template <typename F> void for_each_tile_rect_greedy(const tile_grid& grid, std:
         for (int w = 0; w < words; ++w) row(y).words[w] = grid.row(y).words[w];
     for (int y = 0; y < grid.rows(); ++y)
         row(y).for_each_run([&](int first, int last) {
-            int end = y + 1;
-            for (; end < grid.rows() && row(end).all(first, last); ++end) row(end).reset(first, last);
+            int end = y;
+            while (++end < grid.rows() && row(end).all(first, last)) row(end).reset(first, last);
             f(tile_rect{first, y, last, end});
         });
 }

@@ -28,7 +28,6 @@ class bit_grid {
         return n;
     }
     void set(tile_rect r) noexcept {
-        if (r.empty()) return;
         for (int y = r.y0; y < r.y1; ++y) row(y).set(r.x0, r.x1);
         occupied_rows().set(r.y0, r.y1);
     }
@@ -117,7 +116,7 @@ class tile_grid {
     tile_rect mark(texel_rect r, int guard = 0) noexcept {
         const texel_rect reach = clip(grow(r, guard), size_);
         const tile_rect tiles = tiles_of(reach);
-        if (tiles.empty()) return tiles;
+        if (tiles.empty()) return {};
         reached_.set(tiles);
         held_.set(tiles_of(r));
         bounds_ = union_box(bounds_, reach);

@@ -33,24 +33,29 @@ template <texel_format Texel> [[nodiscard]] constexpr float depth_error(const Te
 }
 
 namespace detail {
-template <texel_format Texel, int Steps> consteval float mask_for_steps() {
-    using channel_type = typename Texel::channel_type;
-    constexpr bool pair = Texel::representation_type::premultiplied;
+template <texel_format Texel, int Steps> struct depth_steps {
     static_assert(Steps >= 1,
                   "gnomon: mask_threshold<Texel, Steps>: Steps is into how many depths the light's range is told, 1 or more");
-    constexpr float code = pair ? 0.0f : 1.0f / channel_type::scale;
-    constexpr float left = 1.0f / static_cast<float>(Steps) - Texel::depth_rounding.relative - Texel::mask_rounding.relative - code;
-    constexpr float doubt = pair ? Texel::depth_rounding.absolute + Texel::mask_rounding.absolute : channel_type::rounding.absolute;
-    constexpr float threshold = doubt / channel_type::scale / (pair && left > 0.0f ? left : 1.0f);
-    static_assert((pair ? left > 0.0f : left >= 0.0f) && threshold <= 1.0f,
-                  "gnomon: no mask is enough to tell so many depths apart in this texel; take one of more bits, or fewer depths");
-    return threshold;
-}
+    static constexpr rounding_error depth = Texel::depth_rounding, mask = Texel::mask_rounding;
+    static constexpr float scale = Texel::channel_type::scale;
+    static constexpr bool pair = Texel::representation_type::premultiplied;
+    /// A depth is in doubt by this at a full mask, by more at less; by one code at every mask if the texel is a ratio.
+    static constexpr float doubt = (pair ? depth.absolute + mask.absolute : 1.0f) / scale;
+    /// What 1/Steps leaves for it.
+    static constexpr float left = 1.0f / static_cast<float>(Steps) - depth.relative - mask.relative;
+    static constexpr bool told = doubt <= left;
+
+    static consteval float threshold() {
+        static_assert(told,
+                      "gnomon: no mask is enough to tell so many depths apart in this texel; take one of more bits, or fewer depths");
+        return pair ? doubt / left : Texel::channel_type::rounding.absolute / scale;
+    }
+};
 } // namespace detail
 
 /// The smallest mask at which this texel, rounded once, tells depths 1/Steps of the light's range apart: from there on no depth_error
 /// is more, but for the 2^-24 of its own. 1/64 takes a quarter of a footprint in 8 bits and a thousandth in 16; 1/256 no 8-bit mask
 /// is enough for, and that does not compile.
-template <texel_format Texel, int Steps> inline constexpr float mask_threshold = detail::mask_for_steps<Texel, Steps>();
+template <texel_format Texel, int Steps> inline constexpr float mask_threshold = detail::depth_steps<Texel, Steps>::threshold();
 
 } // namespace gnomon::inline GNOMON_BUILD
