@@ -97,12 +97,44 @@ TEST_CASE("casters keep the margin free on every side, and the map is not larger
     CHECK(tightest < 0.1); // the margin is what was asked for, not more
 }
 
+TEST_CASE("a sun without casters, with one point for all of them or with infinite ones has no frame") {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto frame_of = [](const auto&... casters) {
+        directional_light sun({0.3, -1.0, 0.2});
+        sun.add_receiver(bounding_sphere{glm::dvec3(1), 5.0});
+        (sun.add_caster(casters), ...);
+        return sun.frame({64, 64});
+    };
+    const bounding_sphere ball{glm::dvec3(1), 1.0}, point{glm::dvec3(1), 0.0};
+    CHECK(frame_of(ball).valid());
+    CHECK_FALSE(directional_light({0.3, -1.0, 0.2}).frame({64, 64}).valid());
+    CHECK_FALSE(frame_of().valid());
+    CHECK_FALSE(frame_of(point).valid());
+    CHECK_FALSE(frame_of(bounding_box{glm::dvec3(1), glm::dvec3(1)}, point).valid());
+    CHECK_FALSE(frame_of(bounding_sphere{glm::dvec3(1), infinity}).valid());
+    CHECK_FALSE(frame_of(bounding_sphere{glm::dvec3(infinity), 1.0}, ball).valid());
+    CHECK_FALSE(frame_of(bounding_box{glm::dvec3(-infinity), glm::dvec3(infinity)}).valid());
+}
+
+TEST_CASE("on the largest map too, a caster just above a step of the texel's size keeps on it") {
+    constexpr int texels = light_frame::largest_side;
+    directional_light sun({0, 0, -1});
+    sun.add_caster(bounding_sphere{{0.49, 0.49, 0.0}, 0.5 * (texels - 1) * (1.0 + 0.9e-6)}); // texels of 1 would be .9e-6 too small
+    const light_frame light = sun.frame({texels, texels});
+    CHECK(texel_size(light) > 1.09);
+    CHECK(texel_size(light) < 1.091);
+}
+
 TEST_CASE("margins must leave two texels of either side") {
     directional_light sun({0.3, -1.0, 0.2});
     sun.add_caster(bounding_sphere{{1.0, 2.0, 3.0}, 4.0});
     for (const extent size : {extent{6, 600}, extent{600, 6}, extent{6, 6}}) CHECK(sun.frame(size, 2).valid());
     for (const extent size : {extent{5, 600}, extent{600, 5}, extent{4, 600}, extent{600, 4}, extent{0, 600}, extent{600, 0}})
         CHECK_FALSE(sun.frame(size, 2).valid());
+    directional_light line({0, -1, 0}); // of casters, as high as nothing on the map
+    line.add_caster(bounding_box{{-1, 0, 0}, {1, 0, 0}});
+    CHECK(line.frame({600, 6}, 2).valid());
+    CHECK_FALSE(line.frame({600, 5}, 2).valid());
     CHECK(sun.frame({2, 2}).valid()); // without a margin, unless one is asked for
 }
 

@@ -165,6 +165,8 @@ TEST_CASE("what a spot light's near plane hides has no footprint, and what it cu
     CHECK_FALSE(box(9.0, 9.0).empty()); // on it
     CHECK(footprint(bounding_sphere{{0, 12, 0}, 1.9}, light).empty());
     CHECK(footprint(bounding_sphere{{0, 10, 0}, 0.99}, light).empty());
+    CHECK(box(9.5, 12.0) == light_footprint{}); // and no depths
+    CHECK(footprint(bounding_box{{99, 0, 0}, {100, 1, 1}}, light) == light_footprint{});
 
     const light_footprint cut = box(0.0, 20.0), flush = box(0.0, 9.0);
     CHECK(cut.texels == flush.texels);
@@ -175,12 +177,22 @@ TEST_CASE("what a spot light's near plane hides has no footprint, and what it cu
     CHECK(footprint(bounding_sphere{{0, 9, 0}, 30.0}, light).depth == depth_interval{0.0f, 1.0f});
 }
 
+TEST_CASE("a ball that touches a spot light's near plane is not cut by it, and one that looks over it is boxed") {
+    const light_frame light = spot_light{.direction = {0, 0, -1}, .outer_angle = 1.2, .near_plane = 1.0, .far_plane = 9.0}.frame({256, 256});
+    const double rim = 128.0 / std::tan(1.2) * std::tan(std::asin(2.0 / 3.0)); // of the cone around it, in texels
+    const auto tight = [rim](int side) { return side == static_cast<int>(std::floor(128.0 - rim)); };
+    CHECK(tight(footprint(bounding_sphere{{0, 0, -3}, 2.0}, light).texels.x0));
+    CHECK_FALSE(tight(footprint(bounding_sphere{{0, 0, -3}, 2.000001}, light).texels.x0));
+}
+
 TEST_CASE("a footprint is 1/1024 texel and 2^-22 of the depth range wider than what it holds") {
     const light_frame light(glm::dmat4(1.0), {64, 64}, 1.0, 1.0); // the world in texels and depths
     const light_footprint within = footprint(bounding_box{{10.0009, 11.0009, 0.25}, {19.9991, 20.9991, 0.5}}, light),
                           beyond = footprint(bounding_box{{10.001, 11.001, 0.25}, {19.999, 20.999, 0.5}}, light);
     CHECK(within == light_footprint{{9, 10, 21, 22}, {0.25f - 0x1p-22f, 0.5f + 0x1p-22f}});
     CHECK(beyond == light_footprint{{10, 11, 20, 21}, within.depth});
+    const light_frame coarse(glm::dmat4(glm::dmat3(0x1p-6)), {64, 64}, 1.0, 1.0); // 64 m a texel
+    CHECK(footprint(bounding_sphere{{640.0, 704.0, 32.0}, 32.0}, coarse).texels == texel_rect{9, 10, 11, 12});
 }
 
 TEST_CASE("a directional light keeps what is before its near plane at depth 0, and every light keeps what is beyond at depth 1") {
@@ -243,4 +255,5 @@ TEST_CASE("before an invalid light nothing has a footprint and before a valid on
     CHECK(footprint(ball, nowhere).empty());
     CHECK(footprint(no_box, light).empty());
     CHECK(footprint(no_ball, light).empty());
+    CHECK(footprint(bounding_sphere{{0, 0, 0}, -1e-9}, light).empty()); // though the slack is more than that
 }

@@ -4,6 +4,8 @@
 #include <gnomon/geometry/rasterize.hpp>
 #include <gnomon/geometry/spot_light.hpp>
 
+#include "../support/bits.hpp"
+
 #include <doctest/doctest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -49,12 +51,14 @@ TEST_CASE("an engine's orthographic matrix is read as the engine means it, in ev
             if (depth == clip_depth::minus_one_to_one) ortho = glm::orthoRH_NO(-10.0, 12.0, -8.0, 9.0, 1.0, 40.0);
             if (depth == clip_depth::one_to_zero) ortho = glm::orthoRH_ZO(-10.0, 12.0, -8.0, 9.0, 40.0, 1.0);
             const light_frame light = light_frame::from_matrix(ortho * view, map_size, clip);
-            REQUIRE(light.valid());
+            const light_frame scaled = light_frame::from_matrix(ortho * view * 4.0, map_size, clip); // clip space is homogeneous
+            REQUIRE((light.valid() && scaled.valid()));
             CHECK_FALSE(light.perspective());
             double worst = 0.0;
             for (int i = 0; i < 1000; ++i) {
                 const glm::dvec3 p = roll.vector(20.0);
-                worst = greater(worst, distance(light.to_map(p), viewport(ortho * view * glm::dvec4(p, 1.0), map_size, clip)));
+                const map_point expected = viewport(ortho * view * glm::dvec4(p, 1.0), map_size, clip);
+                worst = greater(worst, greater(distance(light.to_map(p), expected), distance(scaled.to_map(p), expected)));
             }
             CHECK(worst < 1e-10);
         }
@@ -81,7 +85,8 @@ TEST_CASE("an engine's perspective matrix gives the same texels, and linear dept
             if (depth == clip_depth::minus_one_to_one) perspective = glm::perspectiveRH_NO(1.0, 640.0 / 480.0, 0.5, 80.0);
             if (depth == clip_depth::one_to_zero) perspective = glm::perspectiveRH_ZO(1.0, 640.0 / 480.0, 80.0, 0.5);
             const light_frame light = light_frame::from_matrix(perspective * view, map_size, clip);
-            REQUIRE(light.valid());
+            const light_frame scaled = light_frame::from_matrix(perspective * view * 0.25, map_size, clip); // clip space is homogeneous
+            REQUIRE((light.valid() && scaled.valid()));
             CHECK(light.perspective());
             double worst = 0.0;
             for (int i = 0; i < 1000; ++i) {
@@ -90,7 +95,7 @@ TEST_CASE("an engine's perspective matrix gives the same texels, and linear dept
                 if (distance_along_axis < 1.0) continue;
                 map_point expected = viewport(perspective * view * glm::dvec4(p, 1.0), map_size, clip);
                 expected.depth = (distance_along_axis - 0.5) / (80.0 - 0.5);
-                worst = greater(worst, distance(light.to_map(p), expected));
+                worst = greater(worst, greater(distance(light.to_map(p), expected), distance(scaled.to_map(p), expected)));
             }
             CHECK(worst < 1e-9);
             // As floats, as engines have them, near and far are worse; the texels are not.
@@ -224,4 +229,90 @@ TEST_CASE("a map has 1 to 2^20 texels a side") {
     for (const extent size : {extent{1, 1}, extent{most, 1}, extent{1, most}}) CHECK(light_frame(any, size, 1.0, 1.0).valid());
     for (const extent size : {extent{0, 1}, extent{1, 0}, extent{most + 1, 1}, extent{1, most + 1}})
         CHECK_FALSE(light_frame(any, size, 1.0, 1.0).valid());
+}
+
+TEST_CASE("a frame is invalid if one number of its matrix is not finite") {
+    dice roll{std::mt19937_64(8)};
+    int wrong = 0;
+    for (int i = 0; i < 50; ++i) {
+        glm::dmat4 m;
+        for (int k = 0; k < 16; ++k) m[k / 4][k % 4] = roll(-1.0, 1.0);
+        CHECK(light_frame(m, map_size, 1.0, 1.0).valid());
+        for (int k = 0; k < 16; ++k)
+            for (const double odd : {test::nan<double>, test::infinity<double>, -test::infinity<double>}) {
+                glm::dmat4 broken = m;
+                broken[k / 4][k % 4] = odd;
+                wrong += light_frame(broken, map_size, 1.0, 1.0).valid();
+            }
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("the planes of a frame stand before the light, in order, and at a distance") {
+    constexpr double nan = test::nan<double>, infinity = test::infinity<double>;
+    const auto valid = [](double near_w, double far_w) { return light_frame(glm::dmat4(1.0), map_size, near_w, far_w).valid(); };
+    CHECK((valid(0.1, 100.0) && valid(1e-9, 1e9) && valid(1.0, 1.0)));
+    CHECK_FALSE((valid(0.0, 1.0) || valid(-1.0, 1.0) || valid(2.0, 1.0) || valid(1.0, infinity) || valid(infinity, infinity)));
+    CHECK_FALSE((valid(nan, 1.0) || valid(1.0, nan)));
+}
+
+TEST_CASE("what no light can see is nowhere, and what is before a near plane is somewhere") {
+    const light_frame lamp = spot_light{.position = {0, 5, 0}, .direction = {0, -1, 0}, .near_plane = 0.1}.frame(map_size);
+    const auto nowhere = [](const light_frame& light, const glm::dvec3& p) {
+        const map_point m = light.to_map(p);
+        return std::isnan(m.x) && std::isnan(m.y) && std::isnan(m.depth) && !m.in_front();
+    };
+    CHECK(nowhere(lamp, {0, 6, 0.5}));
+    CHECK(nowhere(lamp, {1, 5, 2})); // beside it
+    CHECK(nowhere(lamp, {0, 5, 0}));
+    CHECK(nowhere(lamp, {0, test::nan<double>, 0}));
+    CHECK(nowhere(light_frame(), {1, 2, 3}));
+    CHECK(lamp.to_map({0, 4.95, 0}).in_front());
+    CHECK(lamp.to_map({0, 4.95, 0}).depth < 0.0);
+    CHECK(light_frame().clip_matrix({}) == glm::mat4(0.0f));
+    CHECK((light_frame().near_w() <= 0.0 && light_frame().far_w() <= 0.0));
+}
+
+TEST_CASE("a perspective matrix without two planes that stand across its axis makes an invalid frame, at any scale") {
+    const glm::dmat4 good = glm::perspectiveRH_ZO(1.0, 640.0 / 480.0, 0.5, 80.0);
+    const auto valid = [](const glm::dmat4& m) { return light_frame::from_matrix(m, map_size, {clip_depth::zero_to_one}).valid(); };
+    const auto with_depth = [&good](double x, double z, double w) { // the row that makes z
+        glm::dmat4 m = good;
+        m[0][2] = x;
+        m[2][2] = z;
+        m[3][2] = w;
+        return m;
+    };
+    for (const double scale : {1e-3, 1.0, 1e3}) {
+        CHECK(valid(good * scale));
+        CHECK(valid(glm::dmat4(glm::mat4(good * glm::lookAtRH(glm::dvec3(3, 20, 5), glm::dvec3(0), glm::dvec3(0, 1, 0)))) * scale));
+        CHECK_FALSE(valid(with_depth(0.01, good[2][2], good[3][2]) * scale)); // oblique
+        CHECK_FALSE(valid(good * -scale));
+        for (const double z : {-1.0, -0.75, 0.0, 0.75, 1.0}) // -1: the far plane is at infinity
+            for (const double w : {-0.5, 0.5}) CHECK_FALSE(valid(with_depth(0.0, z, w) * scale));
+        for (const double w : {0.0, 0.5}) CHECK_FALSE(valid(with_depth(0.0, good[2][2], w) * scale));
+    }
+}
+
+TEST_CASE("a light turns by its up hint or by world z or by world x, the first that is 0.06 degrees off its direction") {
+    const auto turns_by = [](const glm::dvec3& hint, const glm::dvec3& direction, const glm::dvec3& up) {
+        const detail::light_axes axes(direction, up);
+        return std::abs(glm::dot(axes.right, hint)) < 1e-9 && glm::dot(axes.upward, hint) > 0.0;
+    };
+    const glm::dvec3 x(1, 0, 0), z(0, 0, 1);
+    for (const double scale : {1e-3, 1.0, 1e3}) {
+        const auto up = [scale](double angle) { return glm::dvec3(std::cos(angle), std::sin(angle), 0.0) * scale; };
+        CHECK(turns_by(up(0.0011), x, up(0.0011)));
+        CHECK(turns_by(z, x, up(0.0009)));
+        const glm::dvec3 off_z(0.0, std::sin(0.0011), std::cos(0.0011)), at_z(0.0, std::sin(0.0009), std::cos(0.0009));
+        CHECK(turns_by(z, off_z, off_z * scale));
+        CHECK(turns_by(x, at_z, at_z * scale));
+    }
+    const detail::light_axes none(glm::dvec3(0), glm::dvec3(0, 1, 0));
+    CHECK((none.right == glm::dvec3(0) && none.upward == glm::dvec3(0) && none.forward == glm::dvec3(0)));
+}
+
+TEST_CASE("a clip space that nobody has set is that of OpenGL") {
+    CHECK(clip_space{}.depth == clip_depth::minus_one_to_one);
+    CHECK_FALSE(clip_space{}.row_0_is_top);
 }

@@ -210,6 +210,19 @@ TEST_CASE("the origin stands still while casters wander within a cell and while 
     CHECK(rebase_origin(lamp.frame({2048, 2048})) == origin);
 }
 
+TEST_CASE("the origin of a spot light is its place to an eighth of the distance to its near plane, whatever a matrix calls that") {
+    const glm::dvec3 place(3.3, -2.7, 1.1), ahead(0.36, -0.48, 0.8);
+    const glm::dmat4 matrix = glm::perspectiveRH_ZO(1.0, 1.0, 0.01, 80.0) * glm::lookAtRH(place, place + ahead, glm::dvec3(0, 1, 0));
+    for (const double scale : {0x1p-6, 1.0, 0x1p6}) {
+        const light_frame light = light_frame::from_matrix(matrix * scale, {4, 4}, {clip_depth::zero_to_one});
+        REQUIRE(light.valid());
+        const glm::dvec3 origin = rebase_origin(light), off = glm::abs(origin - place);
+        constexpr double cell = 0x1p-9; // 1/8 to 1/4 of 0.01
+        CHECK(greater(off.x, greater(off.y, off.z)) <= 0.5 * cell * 1.001);
+        for (int k = 0; k < 3; ++k) CHECK(test::equal(origin[k] / cell, std::round(origin[k] / cell)));
+    }
+}
+
 TEST_CASE("a spot light keeps its precision right to its near plane because its origin is its own place") {
     dice roll{std::mt19937_64(5)};
     const auto worst_near = [&roll](double forward) {
@@ -266,6 +279,7 @@ TEST_CASE("an object's matrix rebased puts its vertices where their doubles are"
         const glm::dvec3 exact = glm::dvec3(model * glm::dvec4(glm::dvec3(vertex), 1.0)) - origin;
         worst = greater(worst, glm::length(glm::dvec3(found) - exact));
     }
+    CHECK(rebase(glm::dmat4(1.0), {1, 2, 3}) == glm::translate(glm::mat4(1.0f), glm::vec3(-1, -2, -3))); // the last row too
     CHECK(worst < 1e-5); // of 50 m; a float matrix at 1e6 m is off by .03
     CHECK(worst > 1e-6);
 }
@@ -285,6 +299,7 @@ TEST_CASE("what is nowhere in doubles is nowhere in floats and no origin makes i
     const light_frame flat = sun.frame({64, 64});
     CHECK(rebased_frame().to_map({1, 2, 3}).in_front() == false);
     CHECK(rebase_origin(light_frame()) == glm::dvec3(0.0));
+    CHECK(rebased_frame().origin() == glm::dvec3(0.0));
     CHECK(rebased_frame(light_frame()).matrix() == glm::mat4(0.0f));
     for (const glm::vec3& p : {glm::vec3(0), glm::vec3(none, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, far_off, 0)})
         CHECK_FALSE(rebased_frame(lamp, {0, 5, 0}).to_map(p).in_front());

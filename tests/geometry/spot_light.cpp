@@ -1,5 +1,6 @@
 #include <gnomon/geometry/spot_light.hpp>
 
+#include "../support/bits.hpp"
 #include "../support/world_dice.hpp"
 
 #include <doctest/doctest.h>
@@ -73,4 +74,19 @@ TEST_CASE("a lamp that nobody has set stands at the origin and lights half a rad
     CHECK(std::abs(above_x.x - 32.0) < 1e-9);
     CHECK(above_x.y > 32.5);
     CHECK(spot_light{}.frame({2, 2}).valid()); // without a margin, unless one is asked for
+}
+
+TEST_CASE("a lamp out of its ranges has no frame") {
+    const auto valid = [](const spot_light& lamp, extent size = {64, 64}, int margin = 0) { return lamp.frame(size, margin).valid(); };
+    constexpr double right_angle = 1.5707963267948966, nan = test::nan<double>, infinity = test::infinity<double>;
+    for (const double angle : {1e-9, 1.0, test::down(right_angle)}) CHECK(valid({.outer_angle = angle}));
+    for (const double angle : {0.0, -1.0, right_angle, 2.0, 3.0, nan}) CHECK_FALSE(valid({.outer_angle = angle}));
+    CHECK(valid({.near_plane = 1.0, .far_plane = test::up(1.0)}));
+    for (const double distance : {0.0, -1.0, 100.0, 101.0, nan, infinity}) CHECK_FALSE(valid({.near_plane = distance}));
+    for (const double distance : {0.1, 0.0, -1.0, nan, infinity}) CHECK_FALSE(valid({.far_plane = distance}));
+    for (const double odd : {nan, infinity}) CHECK_FALSE(valid({.position = {0, odd, 0}}));
+    CHECK_FALSE(valid({.direction = {0, 0, 0}}));
+    CHECK(valid({}, {9, 64}, 4));
+    for (const int margin : {5, 6, 40}) CHECK_FALSE(valid({}, {10, 64}, margin)); // the margins leave nothing
+    CHECK(spot_light{}.frame({10, 10}, -3).matrix() == spot_light{}.frame({10, 10}).matrix());
 }

@@ -170,10 +170,11 @@ inline light_frame light_frame::from_matrix(const glm::dmat4& world_to_clip, ext
         if (!(w.w > 0.0)) return {};
         return {detail::from_rows(x / w.w, y / w.w, z / w.w, {0.0, 0.0, 0.0, 1.0}), size, 1.0, 1.0};
     }
-    // z = a W + b, if the depth planes stand across the axis: then z is 0 where W = -b / a, and W where W = b / (1 - a).
+    // z = a W + b, if the depth planes stand across the axis: then z is 0 where W = -b / a, and W where W = b / (1 - a). Planes that
+    // are behind the eye, in the wrong order or at infinity are none for a frame.
     const double a = glm::dot(glm::dvec3(z), axis) / glm::dot(axis, axis), b = z.w - a * w.w;
     const glm::dvec3 oblique = glm::dvec3(z) - a * axis;
-    if (!(glm::dot(oblique, oblique) <= 1e-10 * glm::dot(axis, axis)) || !(a > 1.0) || !(b < 0.0)) return {};
+    if (!(glm::dot(oblique, oblique) <= 1e-10 * glm::dot(axis, axis))) return {};
     const double near_w = -b / a, far_w = b / (1.0 - a);
     return {detail::from_rows(x, y, (w - glm::dvec4(0.0, 0.0, 0.0, near_w)) / (far_w - near_w), w), size, near_w, far_w};
 }
@@ -182,9 +183,7 @@ namespace detail {
 /// The right, the upward and the forward direction of a light: orthonormal, and a function of the direction alone, so that a map
 /// does not turn while it moves. All zero if the direction is; NaN if that has one.
 struct light_axes {
-    glm::dvec3 right{0.0};
-    glm::dvec3 upward{0.0};
-    glm::dvec3 forward{0.0};
+    glm::dvec3 right, upward, forward;
 
     [[nodiscard]] static glm::dvec3 unit(const glm::dvec3& v) noexcept {
         const double length = std::hypot(v.x, v.y, v.z);

@@ -91,8 +91,8 @@ class edge_walk {
         return quotient;
     }
 
-    int row_ = 0, end_ = 0;
-    std::int64_t column_ = 0, rest_ = 0, step_ = 0, step_rest_ = 0, unit_ = 1;
+    int row_{}, end_{};
+    std::int64_t column_{}, rest_{}, step_{}, step_rest_{}, unit_{};
 };
 
 /// The most corners of a polygon: a triangle that five planes have cut has 8, and rounding may add a needle.

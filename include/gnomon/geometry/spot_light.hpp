@@ -20,7 +20,7 @@ struct spot_light {
         constexpr double right_angle = 1.5707963267948966;
         const double radius = 0.5 * lesser(size.width, size.height) - greater(margin, 0);
         const bool cone = outer_angle > 0.0 && outer_angle < right_angle;
-        if (!cone || !(radius > 0.0) || !(near_plane > 0.0) || !(near_plane < far_plane)) return {};
+        if (!cone || !(radius > 0.0)) return {};
         const detail::light_axes axes(direction, up);
         const double focal = radius / std::tan(outer_angle);
         const glm::dvec4 w = through_position(axes.forward), at_near(0.0, 0.0, 0.0, near_plane);
