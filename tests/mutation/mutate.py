@@ -241,6 +241,14 @@ class Explained:
             elif line.strip():
                 raise SystemExit(f"{path}:{number}: neither `header: reason` nor `- ` nor `+ `")
 
+    def impossible(self, tree):
+        """Explanations of what is no mutant any more."""
+        made = collections.defaultdict(set)
+        for header in {header for header, _, _ in self.reasons} & set(tree.headers):
+            made[header] = {(m.before, m.after) for m in mutants.mutants_of(tree.text[header])}
+        return [f"{header}: no such mutant: {before}  ->  {after}" for header, before, after in self.reasons
+                if (before, after) not in made[header]]
+
     def stale(self, tree, answers, whole):
         """Explanations of headers that are gone, of lines that do not stand there, and of mutants that a test finds by now."""
         complaints = []
@@ -334,6 +342,7 @@ def main(line=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("only", nargs="*", metavar="PATH[:LINE]", help="headers or folders of include/; all of them if left out")
     parser.add_argument("--list", action="store_true", help="say how many mutants there are, and run none")
+    parser.add_argument("--explained", action="store_true", help="say what survivors.txt explains and nobody can make, and run none")
     parser.add_argument("--near", action="store_true", help="ask the tests of the header's own folder alone: quick, to work on these")
     parser.add_argument("--sample", type=int, metavar="N", help="only N mutants, drawn by --seed")
     parser.add_argument("--seed", type=int, default=1)
@@ -343,6 +352,10 @@ def main(line=None):
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2], help="the project; this one if left out")
     given = parser.parse_args(line)
     tree = Tree(given.root.resolve(), given.compiler)
+    if given.explained:
+        complaints = Explained(tree.tests / "mutation" / "survivors.txt").impossible(tree)
+        print("".join(f"STALE {complaint}\n" for complaint in complaints), end="")
+        return 1 if complaints else 0
     if given.list:
         wanted = chosen(tree, given)
         for header, count in collections.Counter(h for h, _ in wanted).items():

@@ -44,7 +44,7 @@ struct depth_mask {
     /// In single precision too, if only the comparison with the product is exact, which is how it is written in GLSL.
     /// NaN anywhere compares false: lit. z = +inf counts as behind everything, z = -inf as before everything.
     template <typename Real> [[nodiscard]] static constexpr auto behind(Real e, Real m, Real z) noexcept {
-        return select(z<Real(0.5), m * z> m - e, e > m * (Real(1) - z));
+        return select((z < Real(0.5)), m * z > m - e, e > m * (Real(1) - z));
     }
 };
 
