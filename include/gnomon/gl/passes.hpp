@@ -109,8 +109,9 @@ template <texel_format Texel, kernel Kernel> class passes {
         blur_rows(c, map, walk, way);
     }
 
-    /// What the scratch of a map for these passes is.
+    /// What the scratch of a map for these passes is; a narrow kernel's is what the map is.
     [[nodiscard]] static const format& scratch() noexcept {
+        if constexpr (filter_scratch_largest<Texel, Kernel> == 0) return format_of<Texel>;
         return scratch_format(Texel::channels, filter_scratch_largest<Texel, Kernel>);
     }
 
