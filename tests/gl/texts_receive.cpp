@@ -73,9 +73,9 @@ template <typename Texel> Texel pair(typename Texel::storage e, typename Texel::
 
 /// The text's decision about one stored texel, read through a texture.
 #define TEXT(space)                                                                                                                \
-    [](const auto& texel, float z) {                                                                                               \
-        using type = std::remove_cvref_t<decltype(texel)>;                                                                         \
-        return space::gnomon_shadow(texture(image_view<const type>(&texel, {1, 1})), glsl::ivec2(0), z).value;                     \
+    [](const auto& own, float at_depth) {                                                                                          \
+        using type = std::remove_cvref_t<decltype(own)>;                                                                           \
+        return space::gnomon_shadow(texture(image_view<const type>(&own, {1, 1})), glsl::ivec2(0), at_depth).value;                \
     }
 
 } // namespace
