@@ -13,6 +13,7 @@
 //     es3.0         es, of the lowest version, which Mesa then gives no 16-bit unorm
 //     eight_bits    ES has no extension that lets it draw into anything but bytes
 //     softpipe      Mesa's other rasteriser, a hundred times slower
+//     zink          Mesa's GL over its Vulkan rasteriser (Debian: mesa-vulkan-drivers)
 // GNOMON_TEST_EGL names the library, libEGL.so.1 if unset.
 #pragma once
 
@@ -67,6 +68,10 @@ class egl {
     egl() {
         if (gl_asked_for("es3.0")) setenv("MESA_GLES_VERSION_OVERRIDE", "3.0", 1);
         if (gl_asked_for("softpipe")) setenv("GALLIUM_DRIVER", "softpipe", 1);
+        if (gl_asked_for("zink")) {
+            setenv("GALLIUM_DRIVER", "zink", 1);
+            setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+        }
         if (gl_asked_for("eight_bits"))
             setenv("MESA_EXTENSION_OVERRIDE", "-GL_EXT_texture_norm16 -GL_EXT_color_buffer_float -GL_EXT_color_buffer_half_float",
                    1);

@@ -31,7 +31,8 @@ namespace gnomon::inline GNOMON_BUILD {
 /// nothing and is lit everywhere. Move-only.
 ///
 /// Rectangles are collected, and drawn by as few calls as order allows. shadow, receive and soft read the filtered map back, once for
-/// each filter, which waits for the GPU: for tools and tests; an engine's shader reads soft_texture().
+/// each filter, which waits for the GPU: for tools and tests; an engine's shader reads soft_texture(). Once one of them was called, any
+/// number of threads may read until the next filter.
 template <texel_format Texel, kernel Kernel, gl::state_policy Policy> class soft_shadow_map<Texel, Kernel, gl::backend_of<Policy>> {
   public:
     using backend_type = gl::backend_of<Policy>;
@@ -171,10 +172,11 @@ template <texel_format Texel, kernel Kernel, gl::state_policy Policy> class soft
     [[nodiscard]] const gl::map_targets& targets() const noexcept { return textures_.targets(); }
     /// @}
 
-    /// The context is lost: calls nothing of GL, now or when the map goes. Make another map, with another backend.
+    /// The context is lost: calls nothing of GL, now or when the map goes. Make another map, with another
+    /// backend. What maps of the same backend share is forgotten with it; each of them has to be told.
     void forget() {
         textures_.forget();
-        if (passes_) passes_->forget();
+        run_.forget();
         passes_.reset();
         problem_ = {"gnomon: the map's context was lost"};
     }
