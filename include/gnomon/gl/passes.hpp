@@ -5,6 +5,7 @@
 #include <gnomon/gl/pass_program.hpp>
 #include <gnomon/gl/rectangles.hpp>
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -111,7 +112,8 @@ template <texel_format Texel, kernel Kernel> class passes {
 
     /// What the scratch of a map for these passes is.
     [[nodiscard]] static const format& scratch() noexcept {
-        return scratch_format(Texel::channels, filter_scratch_largest<Texel, Kernel>);
+        constexpr std::uint32_t largest = filter_scratch_largest<Texel, Kernel>;
+        return largest == 0 ? format_of<Texel> : scratch_format(Texel::channels, largest);
     }
 
     void forget() noexcept {

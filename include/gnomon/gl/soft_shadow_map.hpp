@@ -172,10 +172,11 @@ template <texel_format Texel, kernel Kernel, gl::state_policy Policy> class soft
     [[nodiscard]] const gl::map_targets& targets() const noexcept { return textures_.targets(); }
     /// @}
 
-    /// The context is lost: calls nothing of GL, now or when the map goes. Make another map, with another backend.
+    /// The context is lost: calls nothing of GL, now or when the map goes. Make another map, with another
+    /// backend. What maps of the same backend share is forgotten with it; each of them has to be told.
     void forget() {
         textures_.forget();
-        if (passes_) passes_->forget();
+        run_.forget();
         passes_.reset();
         problem_ = {"gnomon: the map's context was lost"};
     }
