@@ -231,7 +231,7 @@ TEST_CASE("a map has 1 to 2^20 texels a side") {
         CHECK_FALSE(light_frame(any, size, 1.0, 1.0).valid());
 }
 
-TEST_CASE("a frame is invalid if one number of its matrix is not finite") {
+TEST_CASE("a frame is invalid if one number of its matrix is not finite, and if it flattens the world") {
     dice roll{std::mt19937_64(8)};
     int wrong = 0;
     for (int i = 0; i < 50; ++i) {
@@ -244,6 +244,11 @@ TEST_CASE("a frame is invalid if one number of its matrix is not finite") {
                 broken[k / 4][k % 4] = odd;
                 wrong += light_frame(broken, map_size, 1.0, 1.0).valid();
             }
+        for (int k = 0; k < 3; ++k) {
+            glm::dmat4 flat = m;
+            for (int c = 0; c < 3; ++c) flat[c][k] = 0.0;
+            wrong += light_frame(flat, map_size, 1.0, 1.0).valid();
+        }
     }
     CHECK(wrong == 0);
 }
