@@ -85,7 +85,8 @@ TEST_CASE("an engine's perspective matrix gives the same texels, and linear dept
             if (depth == clip_depth::minus_one_to_one) perspective = glm::perspectiveRH_NO(1.0, 640.0 / 480.0, 0.5, 80.0);
             if (depth == clip_depth::one_to_zero) perspective = glm::perspectiveRH_ZO(1.0, 640.0 / 480.0, 80.0, 0.5);
             const light_frame light = light_frame::from_matrix(perspective * view, map_size, clip);
-            const light_frame scaled = light_frame::from_matrix(perspective * view * 0.25, map_size, clip); // clip space is homogeneous
+            const light_frame scaled =
+                light_frame::from_matrix(perspective * view * 0.25, map_size, clip); // clip space is homogeneous
             REQUIRE((light.valid() && scaled.valid()));
             CHECK(light.perspective());
             double worst = 0.0;

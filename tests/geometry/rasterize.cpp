@@ -621,13 +621,15 @@ TEST_CASE("a polygon is cut where a spot light's near plane and the reach of fix
         detail::projected_polygon polygon;
         double most = 1.0;
         for (int k = 0; k < 3; ++k) {
-            const double z = roll(-0.3, 1.0) * std::exp(roll(-3.0, i % 3 == 0 ? 30.0 : 3.0)); // W too, of a spot light
+            const double any_z = roll(-0.3, 1.0) * std::exp(roll(-3.0, i % 3 == 0 ? 30.0 : 3.0)); // W too, of a spot light
+            const double z = i % 5 == 0 && k == 1 ? 0.0 : any_z;                                  // on the plane itself
             const double w = near_plane_cuts ? 1.0 + 3.0 * z : std::exp(roll(-7.0, 7.0)), side = i % 4 < 2 ? 1.0 : 1.5;
             polygon.add({reach * w * roll(-side, side), reach * w * roll(-side, side), z, w});
             most = greater(most, greater(std::abs(z), std::abs(w)));
         }
         const auto drawable = [&](const glm::dvec4& h, double slack) { // what a cut may be off by: a share of the largest corner
-            return greater(std::abs(h.x), std::abs(h.y)) <= reach * (h.w + slack * most) && (!near_plane_cuts || h.z >= -slack * most);
+            return greater(std::abs(h.x), std::abs(h.y)) <= reach * (h.w + slack * most) &&
+                   (!near_plane_cuts || h.z >= -slack * most);
         };
         const detail::projected_polygon before = polygon;
         polygon.keep_drawable(near_plane_cuts);
@@ -685,16 +687,26 @@ TEST_CASE("a triangle's depth is solved about its reference, which edge-on is al
     const glm::dvec4 small[]{{0.25, 0.25, 0.25, 1}, {0.75, 0.25, 0.75, 1}, {0.25, 0.75, 0.25, 1}}; // in texel (0, 0)
     CHECK(detail::depth_surface(small, small[0], affine).depth()(0, 0) == doctest::Approx(0.5));
     CHECK(std::abs(detail::depth_surface::per_w(affine)) <= 0.0);
-    const detail::triangle_depth past_horizon{
-        .inverse = true, .near_w = 1.0, .per_w = 0.5, .x = 0.0, .y = 0.0, .a = 0.0, .b = 0.0, .c = -1.0, .nearest = 0.25, .farthest = 0.75};
+    const detail::triangle_depth past_horizon{.inverse = true,
+                                              .near_w = 1.0,
+                                              .per_w = 0.5,
+                                              .x = 0.0,
+                                              .y = 0.0,
+                                              .a = 0.0,
+                                              .b = 0.0,
+                                              .c = -1.0,
+                                              .nearest = 0.25,
+                                              .farthest = 0.75};
     CHECK(past_horizon(0, 0) == doctest::Approx(0.75));
 }
 
 namespace {
 template <typename Texel>
-concept casts_translucent = requires(image_view<Texel> texels, triangle_mesh mesh, light_frame light) { cast_triangles(texels, mesh, light, 0.5f); };
+concept casts_translucent =
+    requires(image_view<Texel> texels, triangle_mesh mesh, light_frame light) { cast_triangles(texels, mesh, light, 0.5f); };
 template <typename Texel>
-concept takes_bounds = requires(image_view<Texel> texels, triangle_mesh mesh, light_frame light) { bound_triangles(texels, mesh, light); };
+concept takes_bounds =
+    requires(image_view<Texel> texels, triangle_mesh mesh, light_frame light) { bound_triangles(texels, mesh, light); };
 static_assert(casts_translucent<rga16> && !casts_translucent<rg16>);
 static_assert(takes_bounds<rgb16> && !takes_bounds<rg16>);
 static_assert(marked_texels<tile_grid> && !marked_texels<int>);
