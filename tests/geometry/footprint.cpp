@@ -178,7 +178,8 @@ TEST_CASE("what a spot light's near plane hides has no footprint, and what it cu
 }
 
 TEST_CASE("a ball that touches a spot light's near plane is not cut by it, and one that looks over it is boxed") {
-    const light_frame light = spot_light{.direction = {0, 0, -1}, .outer_angle = 1.2, .near_plane = 1.0, .far_plane = 9.0}.frame({256, 256});
+    const light_frame light =
+        spot_light{.direction = {0, 0, -1}, .outer_angle = 1.2, .near_plane = 1.0, .far_plane = 9.0}.frame({256, 256});
     const double rim = 128.0 / std::tan(1.2) * std::tan(std::asin(2.0 / 3.0)); // of the cone around it, in texels
     const auto tight = [rim](int side) { return side == static_cast<int>(std::floor(128.0 - rim)); };
     CHECK(tight(footprint(bounding_sphere{{0, 0, -3}, 2.0}, light).texels.x0));

@@ -85,7 +85,8 @@ TEST_CASE("an engine's perspective matrix gives the same texels, and linear dept
             if (depth == clip_depth::minus_one_to_one) perspective = glm::perspectiveRH_NO(1.0, 640.0 / 480.0, 0.5, 80.0);
             if (depth == clip_depth::one_to_zero) perspective = glm::perspectiveRH_ZO(1.0, 640.0 / 480.0, 80.0, 0.5);
             const light_frame light = light_frame::from_matrix(perspective * view, map_size, clip);
-            const light_frame scaled = light_frame::from_matrix(perspective * view * 0.25, map_size, clip); // clip space is homogeneous
+            const light_frame scaled =
+                light_frame::from_matrix(perspective * view * 0.25, map_size, clip); // clip space is homogeneous
             REQUIRE((light.valid() && scaled.valid()));
             CHECK(light.perspective());
             double worst = 0.0;
@@ -231,7 +232,7 @@ TEST_CASE("a map has 1 to 2^20 texels a side") {
         CHECK_FALSE(light_frame(any, size, 1.0, 1.0).valid());
 }
 
-TEST_CASE("a frame is invalid if one number of its matrix is not finite") {
+TEST_CASE("a frame is invalid if one number of its matrix is not finite, and if it flattens the world") {
     dice roll{std::mt19937_64(8)};
     int wrong = 0;
     for (int i = 0; i < 50; ++i) {
@@ -244,6 +245,11 @@ TEST_CASE("a frame is invalid if one number of its matrix is not finite") {
                 broken[k / 4][k % 4] = odd;
                 wrong += light_frame(broken, map_size, 1.0, 1.0).valid();
             }
+        for (int k = 0; k < 3; ++k) {
+            glm::dmat4 flat = m;
+            for (int c = 0; c < 3; ++c) flat[c][k] = 0.0;
+            wrong += light_frame(flat, map_size, 1.0, 1.0).valid();
+        }
     }
     CHECK(wrong == 0);
 }

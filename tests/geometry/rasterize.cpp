@@ -313,6 +313,8 @@ TEST_CASE("triangles that cannot be drawn are left out, and their neighbours are
     CHECK(draw(m.mesh(), light).count == expected.count);
 
     CHECK(draw({.positions = good.positions, .indices = {good.indices.data(), 2}}, light).texels() == 0);
+    CHECK(draw({.positions = {good.positions.data(), 2}, .indices = good.indices}, light).texels() == 0);
+    CHECK(rasterize(mesh_data().mesh(), light, everywhere, faces::both, [](int, int, float) {}) == light_footprint{});
     CHECK(draw({.positions = m.positions, .indices = {}}, light).texels() == 0);
     CHECK(draw({.positions = {}, .indices = m.indices}, light).texels() == 0);
     CHECK(draw(good.mesh(glm::dmat4(std::nan(""))), light).texels() == 0);
@@ -600,3 +602,112 @@ TEST_CASE("a polygon keeps its first corners and writes no more than it has room
     CHECK(polygon.count == detail::most_corners);
     for (int i = 0; i < polygon.count; ++i) CHECK(polygon.corner[i] == glm::dvec4(i));
 }
+
+TEST_CASE("far bound: a receiver on the near plane itself ends the shadow of what is before it") {
+    const light_frame light(glm::dmat4(1.0), {8, 8}, 1.0, 1.0); // the world in texels and depths
+    mesh_data sheet;
+    sheet.add(glm::dvec3(-9, -9, 0), glm::dvec3(99, -9, 0), glm::dvec3(-9, 99, 0));
+    image<rgb32f> texels({8, 8}, rgb32f::caster(0.0f));
+    bound_triangles(texels.view(), sheet.mesh(), light);
+    CHECK(texels(3, 4) != rgb32f::caster(0.0f));
+}
+
+TEST_CASE("a polygon is cut where a spot light's near plane and the reach of fixed_point are, and left alone within them") {
+    dice roll{std::mt19937_64(10)};
+    constexpr double reach = detail::fixed_point::reach;
+    int beyond = 0, changed = 0, lost = 0, whole_ones = 0, cut_ones = 0;
+    for (int i = 0; i < 40000; ++i) {
+        const bool near_plane_cuts = i % 2 == 0;
+        detail::projected_polygon polygon;
+        double most = 1.0;
+        for (int k = 0; k < 3; ++k) {
+            const double any_z = roll(-0.3, 1.0) * std::exp(roll(-3.0, i % 3 == 0 ? 30.0 : 3.0)); // W too, of a spot light
+            const double z = i % 5 == 0 && k == 1 ? 0.0 : any_z;                                  // on the plane itself
+            const double w = near_plane_cuts ? 1.0 + 3.0 * z : std::exp(roll(-7.0, 7.0)), side = i % 4 < 2 ? 1.0 : 1.5;
+            polygon.add({reach * w * roll(-side, side), reach * w * roll(-side, side), z, w});
+            most = greater(most, greater(std::abs(z), std::abs(w)));
+        }
+        const auto drawable = [&](const glm::dvec4& h, double slack) { // what a cut may be off by: a share of the largest corner
+            return greater(std::abs(h.x), std::abs(h.y)) <= reach * (h.w + slack * most) &&
+                   (!near_plane_cuts || h.z >= -slack * most);
+        };
+        const detail::projected_polygon before = polygon;
+        polygon.keep_drawable(near_plane_cuts);
+        int within = 0;
+        for (int k = 0; k < 3; ++k) {
+            if (!drawable(before.corner[k], 0.0)) continue;
+            ++within;
+            bool kept = false;
+            for (int n = 0; n < polygon.count; ++n) kept = kept || polygon.corner[n] == before.corner[k];
+            lost += !kept;
+        }
+        for (int k = 0; k < polygon.count; ++k) beyond += !drawable(polygon.corner[k], 1e-12);
+        changed += within == 3 && polygon.count != 3;
+        whole_ones += within == 3;
+        cut_ones += within < 3 && polygon.count >= 3;
+    }
+    CHECK(beyond == 0);
+    CHECK(changed == 0);
+    CHECK(lost == 0);
+    CHECK(whole_ones > 4000);
+    CHECK(cut_ones > 4000);
+}
+
+TEST_CASE("no polygon is snapped that has a corner without a place, or two corners") {
+    detail::fixed_point snapped[detail::most_corners];
+    detail::projected_polygon good;
+    for (const glm::dvec4& h : {glm::dvec4(1, 1, 0.5, 1), glm::dvec4(5, 1, 0.5, 1), glm::dvec4(1, 5, 0.5, 1)}) {
+        CHECK_FALSE(good.snap(snapped));
+        good.add(h);
+    }
+    CHECK(good.snap(snapped));
+    for (const bool near_plane_cuts : {false, true})
+        for (int i = 0; i < 12; ++i)
+            for (const double odd : {std::nan(""), infinity, -infinity}) {
+                detail::projected_polygon polygon = good;
+                polygon.corner[i / 4][i % 4] = odd;
+                if (polygon.corner[i / 4].w > 1.0) continue; // at W infinite all has its place: in the corner of the map
+                polygon.keep_drawable(near_plane_cuts);
+                CHECK_FALSE(polygon.snap(snapped));
+            }
+    good.corner[1].w = 0.0;
+    CHECK_FALSE(good.snap(snapped));
+}
+
+TEST_CASE("a triangle's depth is solved about its reference, which edge-on is all that it has") {
+    const light_frame affine(glm::dmat4(1.0), map_size, 1.0, 1.0), lamp(glm::dmat4(1.0), map_size, 1.0, 3.0);
+    const glm::dvec4 flat[]{{0, 3, 0.25, 1}, {10, 3, 0.75, 1}, {5, 3, 0.5, 1}}, // on a line, the last in its middle
+        deep[]{{0, 4.5, 0.25, 1.5}, {20, 7.5, 0.75, 2.5}, {10, 6, 0.5, 2}};
+    const detail::depth_surface surfaces[]{{flat, flat[2], affine}, {deep, deep[2], lamp}};
+    for (const detail::depth_surface& surface : surfaces) {
+        CHECK(std::abs(surface.area()) <= 0.0);
+        CHECK((surface.depth().x == doctest::Approx(5.0) && surface.depth().y == doctest::Approx(3.0)));
+        for (int x = 0; x < 10; ++x) CHECK(surface.depth()(x, 7 - x) == doctest::Approx(0.5));
+    }
+    const glm::dvec4 small[]{{0.25, 0.25, 0.25, 1}, {0.75, 0.25, 0.75, 1}, {0.25, 0.75, 0.25, 1}}; // in texel (0, 0)
+    CHECK(detail::depth_surface(small, small[0], affine).depth()(0, 0) == doctest::Approx(0.5));
+    CHECK(std::abs(detail::depth_surface::per_w(affine)) <= 0.0);
+    const detail::triangle_depth past_horizon{.inverse = true,
+                                              .near_w = 1.0,
+                                              .per_w = 0.5,
+                                              .x = 0.0,
+                                              .y = 0.0,
+                                              .a = 0.0,
+                                              .b = 0.0,
+                                              .c = -1.0,
+                                              .nearest = 0.25,
+                                              .farthest = 0.75};
+    CHECK(past_horizon(0, 0) == doctest::Approx(0.75));
+}
+
+namespace {
+template <typename Texel>
+concept casts_translucent =
+    requires(image_view<Texel> texels, triangle_mesh mesh, light_frame light) { cast_triangles(texels, mesh, light, 0.5f); };
+template <typename Texel>
+concept takes_bounds =
+    requires(image_view<Texel> texels, triangle_mesh mesh, light_frame light) { bound_triangles(texels, mesh, light); };
+static_assert(casts_translucent<rga16> && !casts_translucent<rg16>);
+static_assert(takes_bounds<rgb16> && !takes_bounds<rg16>);
+static_assert(marked_texels<tile_grid> && !marked_texels<int>);
+} // namespace

@@ -212,7 +212,8 @@ TEST_CASE("the origin stands still while casters wander within a cell and while 
 
 TEST_CASE("the origin of a spot light is its place to an eighth of the distance to its near plane, whatever a matrix calls that") {
     const glm::dvec3 place(3.3, -2.7, 1.1), ahead(0.36, -0.48, 0.8);
-    const glm::dmat4 matrix = glm::perspectiveRH_ZO(1.0, 1.0, 0.01, 80.0) * glm::lookAtRH(place, place + ahead, glm::dvec3(0, 1, 0));
+    const glm::dmat4 matrix =
+        glm::perspectiveRH_ZO(1.0, 1.0, 0.01, 80.0) * glm::lookAtRH(place, place + ahead, glm::dvec3(0, 1, 0));
     for (const double scale : {0x1p-6, 1.0, 0x1p6}) {
         const light_frame light = light_frame::from_matrix(matrix * scale, {4, 4}, {clip_depth::zero_to_one});
         REQUIRE(light.valid());

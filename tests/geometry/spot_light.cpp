@@ -77,7 +77,9 @@ TEST_CASE("a lamp that nobody has set stands at the origin and lights half a rad
 }
 
 TEST_CASE("a lamp out of its ranges has no frame") {
-    const auto valid = [](const spot_light& lamp, extent size = {64, 64}, int margin = 0) { return lamp.frame(size, margin).valid(); };
+    const auto valid = [](const spot_light& lamp, extent size = {64, 64}, int margin = 0) {
+        return lamp.frame(size, margin).valid();
+    };
     constexpr double right_angle = 1.5707963267948966, nan = test::nan<double>, infinity = test::infinity<double>;
     for (const double angle : {1e-9, 1.0, test::down(right_angle)}) CHECK(valid({.outer_angle = angle}));
     for (const double angle : {0.0, -1.0, right_angle, 2.0, 3.0, nan}) CHECK_FALSE(valid({.outer_angle = angle}));

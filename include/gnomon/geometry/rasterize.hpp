@@ -152,7 +152,7 @@ class depth_surface {
 
   private:
     triangle_depth depth_;
-    double area_ = 0.0;
+    double area_{};
 };
 
 /// The three corners of triangle `first / 3`, projected. Empty if an index is off the positions.
