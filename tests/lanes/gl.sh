@@ -53,11 +53,12 @@ gl_row() {
     [[ ! -s $own ]] || cat "$own" >>"$4"
 }
 
-# compared_table FILE: what test::gl_report wrote there, summed up.
+# compared_table FILE: what test::gl_report wrote there, summed up over the radii of kernels.
 compared_table() {
     [[ -s $1 ]] || return 0
     printf '\n%-26s %-14s %-34s %12s %12s\n' context format pass compared differing
-    awk -F'\t' '{ key = $1 "\t" $2 "\t" $3
+    awk -F'\t' '{ sub(/ R=[0-9]+$/, "", $3)
+                  key = $1 "\t" $2 "\t" $3
                   if (!(key in compared)) order[++count] = key
                   compared[key] += $4; differing[key] += $5 }
         END { for (i = 1; i <= count; ++i) { split(order[i], part, "\t")
