@@ -175,8 +175,10 @@ image<Texel> filtered_by(const columns_stage<Number>& columns, const rows_stage<
 template <texel_format Texel, kernel Kernel, typename Number>
 void compare(const columns_stage<Number>& columns, const rows_stage<Number>& rows) {
     test::dice roll(553);
-    for (const extent size : {extent{1, 1}, extent{3, 2}, extent{23, 17}, extent{300, 5}, extent{4, 290}})
+    for (const extent size : {extent{1, 1}, extent{3, 2}, extent{23, 17}, extent{300, 5}, extent{4, 290}, extent{262, 262}})
         for (const int sparseness : {1, 3, 40}) {
+            if (size.height == 262 && (Kernel::radius < 100 || sparseness > 1)) continue; // to fill the widest kernel
+
             image<Texel> from = test::noise<Texel>(roll, size, sparseness);
             if (sparseness == 1) // a full map is where sums are largest
                 test::for_each_texel(whole(size), [&](int x, int y) { from(x, y) = Texel::caster(0.0f); });
