@@ -111,7 +111,8 @@ TEST_CASE("GL fades a shadow past its far bound as scalar does, to 2^-18") {
     });
 }
 
-TEST_CASE_TEMPLATE("GL decides at points as scalar does: bytes in every bit", Texel, gnomon::rg8, gnomon::rga8) {
+TEST_CASE_TEMPLATE("GL decides at points as scalar does: whole codes in every bit", Texel, gnomon::rg8, gnomon::rga8, gnomon::rg16,
+                   gnomon::tm8) {
     test::in_every_gl_context([](const gl::context& c) {
         const gl::backend run(c);
         dice roll(723);

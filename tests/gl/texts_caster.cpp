@@ -87,7 +87,8 @@ void compare(const Caster& caster, const Translucent& translucent, const Output&
         wrong_order.unless(order > 0.0f && order <= 1.0f, "s", s);
         wrong_order.unless((depth > before_depth) == (order > before_order) && (depth < before_depth) == (order < before_order),
                            "s", s);
-        before_depth = depth, before_order = order;
+        before_depth = depth;
+        before_order = order;
         if constexpr (Texel::effects.translucency) {
             translucent(0.25f, s); // an opacity that tries as much
             const Texel through = Texel::caster(0.25f, s);

@@ -73,9 +73,9 @@ template <typename Texel> Texel pair(typename Texel::storage e, typename Texel::
 
 /// The text's decision about one stored texel, read through a texture.
 #define TEXT(space)                                                                                                                \
-    [](const auto& own, float at_depth) {                                                                                          \
-        using type = std::remove_cvref_t<decltype(own)>;                                                                           \
-        return space::gnomon_shadow(texture(image_view<const type>(&own, {1, 1})), glsl::ivec2(0), at_depth).value;                \
+    [](const auto& stored, float receiver) {                                                                                       \
+        using type = std::remove_cvref_t<decltype(stored)>;                                                                        \
+        return space::gnomon_shadow(texture(image_view<const type>(&stored, {1, 1})), glsl::ivec2(0), receiver).value;             \
     }
 
 } // namespace
@@ -240,7 +240,10 @@ template <texel_format Texel, typename Shadow> void compare_blends(const Shadow&
         holds(x, y);
         holds(test::up(x), test::down(y));
     }
-    for (const float v : test::hostile_floats) holds(v, 3.25f), holds(2.25f, v);
+    for (const float v : test::hostile_floats) {
+        holds(v, 3.25f);
+        holds(2.25f, v);
+    }
     CHECK(wrong.report() == "");
 }
 

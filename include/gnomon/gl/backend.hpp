@@ -29,8 +29,12 @@ class made_once {
         result<T> made = make();
         if (!made) return made.error();
         auto value = std::make_shared<T>(*std::move(made));
-        entries_.push_back({&key_of<T>, value});
+        entries_.push_back({&key_of<T>, value, [](void* made_before) { static_cast<T*>(made_before)->forget(); }});
         return value;
+    }
+    void forget() noexcept {
+        for (const entry& each : entries_) each.forget(each.value.get());
+        entries_.clear();
     }
 
   private:
@@ -38,6 +42,7 @@ class made_once {
     struct entry {
         const void* key;
         std::shared_ptr<void> value;
+        void (*forget)(void*);
     };
     std::vector<entry> entries_;
 };
@@ -76,6 +81,7 @@ void main() {
         if (!made) return made.error();
         return receive_bits{*std::move(made)};
     }
+    void forget() noexcept { decide.forget(); }
 };
 
 } // namespace detail
@@ -132,6 +138,9 @@ template <state_policy Policy> class backend_of {
         if (made_->problem) gnomon::receive(map, x, y, z, intensity, r);
     }
 
+    /// The context is lost: forgets what was compiled, for all copies, and calls nothing of GL. Maps that share it must forget as well.
+    void forget() noexcept { made_->programs.forget(); }
+
   private:
     struct shared {
         detail::made_once programs = {};
@@ -162,8 +171,10 @@ template <state_policy Policy> class backend_of {
         using pass = detail::receive_bits<Texel, Points>;
         const auto run = made_->programs.template get<pass>([&] { return pass::make(context_); });
         if (!run) return run.error();
-        for (int i = 0; i < count; ++i) intensity[i] = 0.0f;
-        if (count == 0 || map_size.empty()) return {};
+        if (count == 0 || map_size.empty()) {
+            for (int i = 0; i < count; ++i) intensity[i] = 0.0f;
+            return {};
+        }
         const extent lines = detail::lines_of(count);
         const state_guard<Policy> forced(context_);
         image<Texel> texels(map_size, Texel::clear());

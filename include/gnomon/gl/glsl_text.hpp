@@ -24,16 +24,13 @@ enum class glsl_version {
 
 /// What goes before any shader text of gnomon: the version, full precision, and nothing in place of `precise` where it is unknown.
 [[nodiscard]] constexpr std::string_view glsl_header(glsl_version version) noexcept {
-    switch (version) {
-    case glsl_version::desktop_330: return "#version 330 core\n#define precise\n";
-    case glsl_version::desktop_450: return "#version 450 core\n";
-    case glsl_version::es_320:
-        return "#version 320 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\nprecision highp "
-               "usampler2D;\n";
-    case glsl_version::es_300: break;
-    }
-    return "#version 300 es\n#define precise\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\nprecision "
-           "highp usampler2D;\n";
+    if (version == glsl_version::desktop_330) return "#version 330 core\n#define precise\n";
+    if (version == glsl_version::desktop_450) return "#version 450 core\n";
+    if (version == glsl_version::es_320)
+        return "#version 320 es\nprecision highp float;\nprecision highp int;\n"
+               "precision highp sampler2D;\nprecision highp usampler2D;\n";
+    return "#version 300 es\n#define precise\nprecision highp float;\nprecision highp int;\n"
+           "precision highp sampler2D;\nprecision highp usampler2D;\n";
 }
 
 namespace detail {
@@ -56,7 +53,7 @@ struct filling {
     std::string text;
 };
 
-/// A text in which every @word is replaced.
+/// A text in which every word after an at sign is replaced.
 [[nodiscard]] inline std::string filled(std::string_view text, std::initializer_list<filling> fillings) {
     std::string result(text);
     for (const filling& each : fillings) {

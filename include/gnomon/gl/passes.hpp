@@ -5,6 +5,7 @@
 #include <gnomon/gl/pass_program.hpp>
 #include <gnomon/gl/rectangles.hpp>
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -111,7 +112,8 @@ template <texel_format Texel, kernel Kernel> class passes {
 
     /// What the scratch of a map for these passes is.
     [[nodiscard]] static const format& scratch() noexcept {
-        return scratch_format(Texel::channels, filter_scratch_largest<Texel, Kernel>);
+        constexpr std::uint32_t largest = filter_scratch_largest<Texel, Kernel>;
+        return largest == 0 ? format_of<Texel> : scratch_format(Texel::channels, largest);
     }
 
     void forget() noexcept {
@@ -127,9 +129,9 @@ template <texel_format Texel, kernel Kernel> class passes {
         problem why;
         const auto take = [&](pass_program& into, std::string_view vertex, const std::string& fragment, auto... samplers) {
             result<pass_program> one = pass_program::make(c, vertex, fragment, {samplers...});
-            if (!one) return why = one.error(), false;
-            into = *std::move(one);
-            return true;
+            if (one) into = *std::move(one);
+            why = one.error();
+            return !why;
         };
         bool all = take(clear_, rectangles_vertex_text, clear_text()) &&
                    take(cast_, surfaces_vertex_text, caster_rectangles_text<Texel>()) &&

@@ -25,7 +25,8 @@ template <texel_format Texel> struct shader_rule {
         return {steps::of(r.caster), steps::of(r.far_bound), glsl::number(r.fade), glsl::truth(r.lit_beyond)};
     }
     /// vec4 gnomon_caster_bias and float gnomon_caster_nearer hold bias_steps<Texel, float>::of(rule.caster), vec4 gnomon_bound_bias and
-    /// float gnomon_bound_nearer those of rule.far_bound, in the order of its members; float gnomon_fade and bool gnomon_lit_beyond.
+    /// float gnomon_bound_nearer those of rule.far_bound, in the order of its members; float gnomon_fade and bool gnomon_lit_beyond. The
+    /// shares of whole codes are 1 and not read, and of a texel without a far bound there are only the caster's and the last.
     [[nodiscard]] static shader_rule uniforms() {
         const auto of = [](const std::string& name) {
             const auto part = [&](const char* component) { return glsl::number("gnomon_" + name + component); };
