@@ -141,6 +141,15 @@ TEST_CASE("a lost context says so where it can, and GL's errors come as sentence
     fake.errors = {gl::enums::invalid_operation, gl::enums::out_of_memory};
     CHECK(c.check("drawing").sentence == "gnomon: drawing: GL_INVALID_OPERATION");
     CHECK_FALSE(c.check("drawing")); // all flags are read
+    for (const auto& [error, name] : {std::pair{0x500u, "GL_INVALID_ENUM"},
+                                      {0x501u, "GL_INVALID_VALUE"},
+                                      {0x505u, "GL_OUT_OF_MEMORY"},
+                                      {0x506u, "GL_INVALID_FRAMEBUFFER_OPERATION"},
+                                      {0x9242u, "GL_CONTEXT_LOST"},
+                                      {0x503u, "an error that GL does not name"}}) {
+        fake.errors = {error};
+        CHECK(c.check("drawing").sentence == std::string("gnomon: drawing: ") + name);
+    }
     fake.lost = true;
     CHECK(c.lost());
     CHECK(c.check("drawing").sentence == "gnomon: drawing: GL_CONTEXT_LOST"); // and does not ask for ever

@@ -53,6 +53,10 @@ TEST_CASE("every texel has a format as wide as itself or one channel wider") {
     CHECK(gl::format_of<rgb32f> == gl::rgba32f_format);
     CHECK(gl::format_of<tm8> == gl::rg8_format);
     CHECK(gl::format_of<test::ratio_rgba16> == gl::rgba16_format);
+    CHECK(gl::detail::format_of_channel<unorm8, 2>() == gl::rg8_format); // at run time, too
+    CHECK(gl::detail::format_of_channel<unorm16, 3>() == gl::rgba16_format);
+    CHECK(gl::detail::format_of_channel<half16, 4>() == gl::rgba16f_format);
+    CHECK(gl::detail::format_of_channel<float32, 2>() == gl::rg32f_format);
     static_assert(gl::format_of<rgba8>.channels == 4 && gl::format_of<rg32f>.upload_type == gl::enums::type_float);
 }
 

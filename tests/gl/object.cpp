@@ -10,6 +10,13 @@
 
 namespace gl = gnomon::gl;
 
+TYPE_TO_STRING_AS("texture", gl::texture);
+TYPE_TO_STRING_AS("sampler", gl::sampler);
+TYPE_TO_STRING_AS("framebuffer", gl::framebuffer);
+TYPE_TO_STRING_AS("buffer", gl::buffer);
+TYPE_TO_STRING_AS("vertex_array", gl::vertex_array);
+TYPE_TO_STRING_AS("program", gl::program);
+
 namespace {
 
 /// A fake with a context of it.

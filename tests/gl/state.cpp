@@ -14,6 +14,9 @@
 namespace gl = gnomon::gl;
 namespace enums = gnomon::gl::enums;
 
+TYPE_TO_STRING_AS("dirty", gl::state_guard<gl::state_policy::dirty>);
+TYPE_TO_STRING_AS("restore", gl::state_guard<gl::state_policy::restore>);
+
 namespace {
 
 constexpr int units = 4;

@@ -98,26 +98,16 @@ template <texel_format Texel> [[nodiscard]] problem supports(const context& c) {
 namespace detail {
 
 template <typename... Texels> struct texel_list {};
+template <typename... Channels> struct channel_list {
+    template <typename R, effects E> using texels = texel_list<texel<Channels, R, E>...>;
+};
 
-/// Finest first. A depth that is not stored times the mask has whole codes.
-template <typename R, effects E, typename C> [[nodiscard]] constexpr auto fallbacks() noexcept {
-    using u8 = texel<unorm8, R, E>;
-    using u16 = texel<unorm16, R, E>;
-    if constexpr (std::is_same_v<C, unorm8>)
-        return texel_list<u8>{};
-    else if constexpr (!R::premultiplied)
-        return texel_list<u16, u8>{};
-    else {
-        using f16 = texel<half16, R, E>;
-        using f32 = texel<float32, R, E>;
-        if constexpr (std::is_same_v<C, unorm16>)
-            return texel_list<u16, f16, u8>{};
-        else if constexpr (std::is_same_v<C, half16>)
-            return texel_list<f16, u16, u8>{};
-        else
-            return texel_list<f32, u16, f16, u8>{};
-    }
-}
+/// What comes nearest to a channel, itself first. A depth that is not stored times the mask has whole codes.
+template <typename Channel, bool Premultiplied> struct nearest_channels : channel_list<unorm8> {};
+template <bool Premultiplied> struct nearest_channels<unorm16, Premultiplied> : channel_list<unorm16, unorm8> {};
+template <> struct nearest_channels<unorm16, true> : channel_list<unorm16, half16, unorm8> {};
+template <> struct nearest_channels<half16, true> : channel_list<half16, unorm16, unorm8> {};
+template <> struct nearest_channels<float32, true> : channel_list<float32, unorm16, half16, unorm8> {};
 
 } // namespace detail
 
@@ -125,7 +115,8 @@ template <typename R, effects E, typename C> [[nodiscard]] constexpr auto fallba
 /// float32, unorm16, half16, unorm8;  unorm16, half16, unorm8;  half16, unorm16, unorm8;  unorm8, which is drawable everywhere.
 template <texel_format Texel>
 using fallbacks_of =
-    decltype(detail::fallbacks<typename Texel::representation_type, Texel::effects, typename Texel::channel_type>());
+    typename detail::nearest_channels<typename Texel::channel_type, Texel::representation_type::premultiplied>::template texels<
+        typename Texel::representation_type, Texel::effects>;
 
 /// Calls `use.template operator()<T>()` for the first T of fallbacks_of<Texel> that the context supports. Returns why Texel itself was
 /// not taken; empty if it was.

@@ -19,7 +19,8 @@ namespace gl {
 ///     SAMPLE_COVERAGE, SAMPLE_MASK, SCISSOR_TEST, STENCIL_TEST; on desktop also COLOR_LOGIC_OP, FRAMEBUFFER_SRGB, POLYGON_SMOOTH,
 ///     PRIMITIVE_RESTART, SAMPLE_ALPHA_TO_ONE; and where a context has them DEPTH_CLAMP and CLIP_DISTANCEi.
 ///
-/// `restore` asks for all that first, and puts it back, bit for bit. It costs about a hundred glGets and as many calls, and makes a driver
+/// `dirty` makes 33 calls in OpenGL ES 3.0 and 54 in GL 4.5. `restore` asks for all that first, and puts it back, bit for bit: 49 glGets
+/// and 52 more calls in ES 3.0, 187 and 161 in GL 4.5 with its sixteen viewports; 0.25 and 2.1 us on llvmpipe. And it makes a driver
 /// that works in another thread wait. Two things cannot be had back: a program, and an object in another context's keeping, that was
 /// deleted while it was in use; and the indexed state of OES_draw_buffers_indexed, OES_viewport_array and ARB_draw_buffers_blend, which
 /// comes back as that of index 0.
