@@ -77,9 +77,8 @@ inline constexpr std::string_view encode_unorm_text = R"(
 float gnomon_code(float v) {
     if (!(v > 0.0)) return 0.0;
     if (v >= 1.0) return @scale;
-    float code = floor(@scale * v + 0.5); // or one beside it
-    if (gnomon_exceeds(-@scale, v, 0.5 - code)) return code - 1.0;
-    return gnomon_exceeds(-@scale, v, -0.5 - code) ? code : code + 1.0;
+    float code = floor(@scale * v + 0.5); // or one more: rounding keeps the order, so never less
+    return gnomon_exceeds(-@scale, v, 0.5 - code) ? code - 1.0 : code;
 }
 )";
 inline constexpr std::string_view complement_unorm_text = R"(
@@ -94,9 +93,8 @@ inline constexpr std::string_view complement_ratio_text = R"(
 float gnomon_complement(float z) {
     if (!(z < 1.0)) return 0.0;
     if (!(z > 0.0)) return @scale;
-    float code = floor(@scale - @scale * z); // or one beside it
-    if (gnomon_exceeds(@scale, z, @scale - code)) return code - 1.0;
-    return gnomon_exceeds(@scale, z, @scale - 1.0 - code) ? code : code + 1.0;
+    float code = floor(@scale - @scale * z); // or one more: rounding keeps the order, so never less
+    return gnomon_exceeds(@scale, z, @scale - code) ? code - 1.0 : code;
 }
 )";
 inline constexpr std::string_view encode_half_text = R"(

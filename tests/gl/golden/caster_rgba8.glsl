@@ -39,9 +39,8 @@ bool gnomon_exceeds(float a, float b, float c) {
 float gnomon_code(float v) {
     if (!(v > 0.0)) return 0.0;
     if (v >= 1.0) return 255.0;
-    float code = floor(255.0 * v + 0.5); // or one beside it
-    if (gnomon_exceeds(-255.0, v, 0.5 - code)) return code - 1.0;
-    return gnomon_exceeds(-255.0, v, -0.5 - code) ? code : code + 1.0;
+    float code = floor(255.0 * v + 0.5); // or one more: rounding keeps the order, so never less
+    return gnomon_exceeds(-255.0, v, 0.5 - code) ? code - 1.0 : code;
 }
 
 // the code nearest to 255.0 (1 - z); the only tie is half way, and goes upwards

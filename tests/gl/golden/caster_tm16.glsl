@@ -39,18 +39,16 @@ bool gnomon_exceeds(float a, float b, float c) {
 float gnomon_code(float v) {
     if (!(v > 0.0)) return 0.0;
     if (v >= 1.0) return 65535.0;
-    float code = floor(65535.0 * v + 0.5); // or one beside it
-    if (gnomon_exceeds(-65535.0, v, 0.5 - code)) return code - 1.0;
-    return gnomon_exceeds(-65535.0, v, -0.5 - code) ? code : code + 1.0;
+    float code = floor(65535.0 * v + 0.5); // or one more: rounding keeps the order, so never less
+    return gnomon_exceeds(-65535.0, v, 0.5 - code) ? code - 1.0 : code;
 }
 
 // the largest code that is not nearer to the light than z
 float gnomon_complement(float z) {
     if (!(z < 1.0)) return 0.0;
     if (!(z > 0.0)) return 65535.0;
-    float code = floor(65535.0 - 65535.0 * z); // or one beside it
-    if (gnomon_exceeds(65535.0, z, 65535.0 - code)) return code - 1.0;
-    return gnomon_exceeds(65535.0, z, 65535.0 - 1.0 - code) ? code : code + 1.0;
+    float code = floor(65535.0 - 65535.0 * z); // or one more: rounding keeps the order, so never less
+    return gnomon_exceeds(65535.0, z, 65535.0 - code) ? code - 1.0 : code;
 }
 
 layout(location = 0) out vec2 gnomon_texel;
