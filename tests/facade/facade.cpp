@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -100,6 +101,13 @@ TEST_CASE_TEMPLATE("maps of nothing, of one texel, of one row, and smaller than 
                 CHECK(test::equal(intensity[0] + intensity[1], 0.0f));
             }
         }
+}
+
+static_assert(std::is_same_v<soft_shadow_map<gnomon::rg8>, soft_shadow_map<gnomon::rg8, binomial<3>, gnomon::simd<>>>);
+
+TEST_CASE("of what a size leaves out there are no texels, and tiles of 32") {
+    CHECK(map_of<gnomon::rg8>({}).size() == extent{0, 0});
+    CHECK(map_of<gnomon::rg8>({}).tiles().tiles().tile() == 32);
 }
 
 TEST_CASE("casting nothing leaves a lit map: empty, inverted and far away rectangles") {
@@ -202,15 +210,31 @@ static_assert(can_shadow<map_of<gnomon::rg8>, int, int, float> && can_shadow<map
 static_assert(!can_shadow<map_of<gnomon::rg8>, float, float, float> && !can_shadow<map_of<gnomon::rg8>, double, double, double>,
               "a position would be cut to a texel without a word");
 
+template <typename Point>
+concept is_point = requires(const map_of<gnomon::rg8>& map, Point p) { map.shadow_at(p); };
+struct without_x {
+    float y, depth;
+};
+struct without_y {
+    float x, depth;
+};
+struct without_depth {
+    float x, y;
+};
+struct with_all : without_x {
+    float x;
+};
+static_assert(is_point<with_all> && !is_point<without_x> && !is_point<without_y> && !is_point<without_depth>);
+
 TEST_CASE("a point with x, y and depth is asked as its three numbers are") {
     struct {
         double x, y, depth;
-    } const point{10.25, 9.5, 0.75};
+    } const point{10.25, 4.75, 0.75}; // at a corner, so that neither number does for the other
     map_of<gnomon::rg16> map({.width = 20, .height = 20, .tile = 8});
     map.cast({10, 5, 15, 15}, 0.5f);
     map.filter();
     CHECK(map.shadow_at(point) > 0.1f);
-    CHECK(test::same_bits(map.shadow_at(point), map.shadow_at(10.25f, 9.5f, 0.75f)));
+    CHECK(test::same_bits(map.shadow_at(point), map.shadow_at(10.25f, 4.75f, 0.75f)));
 }
 
 TEST_CASE("a receiver before its caster is reached unless the bias is towards light") {
