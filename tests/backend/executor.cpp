@@ -222,6 +222,8 @@ TEST_CASE("a soft_shadow_map hands out as many jobs as its size is worth, and no
     };
     CHECK(jobs({.width = 128, .height = 127}) == 1);
     CHECK(jobs({.width = 128, .height = 128}) == 2);
+    CHECK(jobs({.width = 1024, .height = 64}) == 5);
+    CHECK(jobs({.width = 64, .height = 1024}) == 5);
     CHECK(jobs({.width = 1024, .height = 1024}) == 32);
     CHECK(jobs({.width = 1024, .height = 1024, .bands = 7}) == 7);
     CHECK(jobs({.width = 1024, .height = 1024, .bands = 0}) == 1);

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <type_traits>
 #include <utility>
 
 namespace {
@@ -45,6 +46,14 @@ TEST_CASE_TEMPLATE("maps of nothing, of one texel, of one row, and smaller than 
     suite::maps_of_nothing<Texel>(gnomon::scalar{});
 }
 
+static_assert(
+    std::is_same_v<gnomon::soft_shadow_map<gnomon::rg8>, gnomon::soft_shadow_map<gnomon::rg8, binomial<3>, gnomon::simd<>>>);
+
+TEST_CASE("of what a size leaves out there are no texels, and tiles of 32") {
+    CHECK(map_of<gnomon::rg8>({}).size() == gnomon::extent{0, 0});
+    CHECK(map_of<gnomon::rg8>({}).tiles().tiles().tile() == 32);
+}
+
 TEST_CASE("casting nothing leaves a lit map: empty, inverted and far away rectangles") { suite::casting_nothing(run); }
 
 TEST_CASE("a caster of no depth lies at the far plane, one beyond the planes on them, and a receiver of no depth is lit") {
@@ -84,6 +93,22 @@ concept can_shadow = requires(const Map& map, Arguments... at) { map.shadow(at..
 static_assert(can_shadow<map_of<gnomon::rg8>, int, int, float> && can_shadow<map_of<gnomon::rg8>, int, int, double>);
 static_assert(!can_shadow<map_of<gnomon::rg8>, float, float, float> && !can_shadow<map_of<gnomon::rg8>, double, double, double>,
               "a position would be cut to a texel without a word");
+
+template <typename Point>
+concept is_point = requires(const map_of<gnomon::rg8>& map, Point p) { map.shadow_at(p); };
+struct without_x {
+    float y, depth;
+};
+struct without_y {
+    float x, depth;
+};
+struct without_depth {
+    float x, y;
+};
+struct with_all : without_x {
+    float x;
+};
+static_assert(is_point<with_all> && !is_point<without_x> && !is_point<without_y> && !is_point<without_depth>);
 
 TEST_CASE("a point with x, y and depth is asked as its three numbers are") { suite::points_of_three_numbers(run); }
 
