@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace gl = gnomon::gl;
@@ -59,6 +60,12 @@ TEST_CASE("where GL cannot, scalar filters and receives, and the backend says wh
         CHECK(run.problem().sentence != "");
         gnomon::receive(expected.view().row_span(7), z, right);
         CHECK(found == right);
+        small.norm16 = false;
+        const gl::backend without(small);
+        std::vector<gnomon::rg16> words(40, gnomon::rg16::caster(0.5f));
+        gnomon::receive(without, words, z, found);
+        CHECK(without.problem().sentence.find("GL_EXT_texture_norm16") != std::string::npos);
+        CHECK(found == std::vector<float>(40, 1.0f));
         run.filter_region(from.view(), made.view(), {0, 0, 8, 8}, scratch); // and where it can again, the GPU
         CHECK(run.problem().sentence == "");
     });

@@ -63,6 +63,7 @@ template <texel_format Texel, bool Points> struct receive_bits {
     receive_pass<Texel> decide;
 
     [[nodiscard]] static result<receive_bits> make(const context& c) {
+        if (problem why = supports<Texel>(c)) return why;
         constexpr std::string_view call = Points ? "gnomon_shadow_at(gnomon_map, receiver.xy, receiver.z)"
                                                  : "gnomon_shadow(gnomon_map, ivec2(gl_FragCoord), receiver.x)";
         auto made = receive_pass<Texel>::make(c,
