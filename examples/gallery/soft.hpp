@@ -1,9 +1,9 @@
 // gallery: gnomon at work: cast, bound, filter, receive, in every storage format; and what that costs.
 #pragma once
 
-#include "view.hpp"
+#include "truth.hpp"
 
-#include <gnomon/filter/kernel.hpp>
+#include <gnomon/soft_shadow_map.hpp>
 
 namespace gallery {
 
@@ -12,6 +12,23 @@ using soft_kernel = gnomon::gaussian<8>;
 inline constexpr const char* kernel_name = "gaussian<8>";
 inline constexpr gnomon::extent map_extent{512, 512};
 inline constexpr int tile_size = 16;
+
+/// Casts a scene into a map, and bounds it where the map can be bounded.
+template <gnomon::texel_format Texel, gnomon::kernel Kernel, typename Backend>
+void cast_scene(gnomon::soft_shadow_map<Texel, Kernel, Backend>& map, const scene& s, const mesh& m,
+                const gnomon::light_frame& frame) {
+    for (const caster& c : s.casters)
+        map.cast([&](auto texels) {
+            if constexpr (Texel::effects.translucency)
+                return cast_triangles(texels, triangles(m, c), frame, c.opacity);
+            else
+                return cast_triangles(texels, triangles(m, c), frame);
+        });
+    if constexpr (Texel::effects.far_bound)
+        map.bound([&](auto texels) {
+            bound_triangles(texels, static_triangles(s).view(), frame, gnomon::faces::dark_side, map.tiles());
+        });
+}
 
 /// What gnomon answered in one storage format, and what it cost.
 struct answer {

@@ -1,8 +1,6 @@
 #include "truth.hpp"
 
 #include "parallel.hpp"
-#include "soft.hpp"
-
 #include <array>
 #include <cmath>
 
@@ -10,38 +8,30 @@ namespace gallery {
 
 namespace {
 
-constexpr int blended_taps = 2 * soft_kernel::radius + 2;
-using tap_weights = std::array<double, blended_taps>;
-
-/// The kernel, spread over two neighbouring centres: tap i of the left one is tap i - 1 of the right one. Whole numbers, so exact.
-tap_weights blend(int right) {
-    tap_weights w{};
-    for (std::size_t i = 0; i < soft_kernel::weights.size(); ++i) {
-        w[i] += soft_kernel::weights[i] * (256.0 - right);
-        w[i + 1] += soft_kernel::weights[i] * 1.0 * right;
-    }
-    return w;
-}
-
-/// Where a receiver reads along one axis: the first of its taps, and their weights; positions as gnomon::sample takes them.
+/// Where a receiver reads along one axis: the first of its taps, and their weights; positions as gnomon::sample takes them. The kernel is
+/// spread over two neighbouring centres: tap i of the left one is tap i - 1 of the right one. Whole numbers, so exact.
 struct axis_taps {
-    int first;
-    tap_weights weight;
+    int first, count;
+    std::array<double, 34> weight{};
 
-    explicit axis_taps(float position) {
+    axis_taps(float position, kernel_weights kernel) : count(kernel.size() + 1) {
         const int steps = static_cast<int>(std::floor((static_cast<double>(position) - 0.5) * 256.0 + 0.5));
-        first = (steps >> 8) - soft_kernel::radius;
-        weight = blend(steps & 255);
+        first = (steps >> 8) - kernel.size() / 2;
+        for (int i = 0; i < kernel.size(); ++i) {
+            weight[static_cast<std::size_t>(i)] += kernel[i] * (256.0 - (steps & 255));
+            weight[static_cast<std::size_t>(i + 1)] += kernel[i] * 1.0 * (steps & 255);
+        }
     }
 };
 
 /// Slack of a caster that receives, for the plane is not the surface, in depth.
 constexpr double plane_slack = 0.004;
 
-double filtered_shadow(const exact_map& map, const receivers& points, std::size_t i, gnomon::texel_rect occupied) {
-    const axis_taps across(points.x[i]), down(points.y[i]);
+double filtered_shadow(const exact_map& map, const receivers& points, std::size_t i, gnomon::texel_rect occupied,
+                       kernel_weights weights) {
+    const axis_taps across(points.x[i], weights), down(points.y[i], weights);
     const gnomon::texel_rect read =
-        intersection({across.first, down.first, across.first + blended_taps, down.first + blended_taps}, occupied);
+        intersection({across.first, down.first, across.first + across.count, down.first + down.count}, occupied);
     const double z = static_cast<double>(points.z[i]), x = static_cast<double>(points.x[i]), y = static_cast<double>(points.y[i]);
     const double slope_x = static_cast<double>(points.slope_x[i]), slope_y = static_cast<double>(points.slope_y[i]);
     const double slack = std::abs(slope_x) + std::abs(slope_y) > 0.0 ? plane_slack : 0.0;
@@ -54,7 +44,8 @@ double filtered_shadow(const exact_map& map, const receivers& points, std::size_
         }
         sum += row_sum * down.weight[static_cast<std::size_t>(row - down.first)];
     }
-    constexpr double whole = 256.0 * soft_kernel::total;
+    double whole = 0.0;
+    for (const double w : across.weight) whole += w;
     return sum / (whole * whole);
 }
 
@@ -102,13 +93,14 @@ std::vector<float> hard_shadow(const exact_map& map, const receivers& points) {
     return intensity;
 }
 
-std::vector<float> exact_shadow(const exact_map& map, const receivers& points) {
+std::vector<float> exact_shadow(const exact_map& map, const receivers& points, kernel_weights weights) {
     constexpr std::size_t strip = 4096;
     std::vector<float> intensity(points.size());
     const gnomon::texel_rect occupied = occupied_part(map);
     for_each_row(static_cast<int>((points.size() + strip - 1) / strip), [&](int row) {
         const std::size_t begin = static_cast<std::size_t>(row) * strip, end = (std::min)(begin + strip, points.size());
-        for (std::size_t i = begin; i < end; ++i) intensity[i] = static_cast<float>(filtered_shadow(map, points, i, occupied));
+        for (std::size_t i = begin; i < end; ++i)
+            intensity[i] = static_cast<float>(filtered_shadow(map, points, i, occupied, weights));
     });
     return intensity;
 }

@@ -38,10 +38,13 @@ struct static_triangles {
 /// The depth test of old, at the nearest texel, without filter or bias.
 [[nodiscard]] std::vector<float> hard_shadow(const exact_map& map, const receivers& points);
 
-/// Exact percentage-closer filtering with the weights of `soft_kernel`, at the four texels around the receiver, blended like
+/// The weights of a kernel, at most 33 of them.
+using kernel_weights = gnomon::strided_span<const int>;
+
+/// Exact percentage-closer filtering with these weights, at the four texels around the receiver, blended like
 /// gnomon::sample blends them (positions to 1/256 texel): so what differs from gnomon is method and storage, and nothing else.
 /// Every tap is compared with the receiver's own depth; on a caster, with the depth of the receiver's plane at that tap, since
 /// with one depth percentage-closer filtering shadows its own slopes, and would be no truth.
-[[nodiscard]] std::vector<float> exact_shadow(const exact_map& map, const receivers& points);
+[[nodiscard]] std::vector<float> exact_shadow(const exact_map& map, const receivers& points, kernel_weights weights);
 
 } // namespace gallery
