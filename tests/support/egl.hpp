@@ -7,7 +7,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <string>
 
 namespace test {
@@ -18,12 +17,10 @@ inline void skip(const std::string& why) { MESSAGE("skipped: " << why); }
 /// Calls body(const gnomon::gl::context&) with every context that this process can make, current and newly made. Where it is none, the
 /// case is skipped, with a sentence.
 template <typename Body> void in_every_gl_context(Body&& body) {
-    const char* wanted = std::getenv("GNOMON_TEST_GL");
-    const std::string names = std::string(" ") + (wanted != nullptr ? wanted : "4.5 3.3 es") + ' ';
     bool any = false;
     std::string why;
     for (const gl_kind kind : {gl_4_5, gl_3_3, gl_es}) {
-        if (names.find(std::string(" ") + kind.name + ' ') == std::string::npos) continue;
+        if (!is_wanted(kind)) continue;
         const gl_context made(kind);
         if (!made) {
             why = made.why_not();

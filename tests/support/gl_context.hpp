@@ -9,7 +9,7 @@
 // MESA_GLSL_VERSION_OVERRIDE, so GL 3.3 and 4.5 may stand side by side; but only once, before the first context of the process,
 // MESA_GLES_VERSION_OVERRIDE, MESA_EXTENSION_OVERRIDE and GALLIUM_DRIVER. So which OpenGL ES and which rasteriser a process gets is
 // said by who starts it: CMakeLists.txt and lanes/gl.sh, which also know these two:
-//     GNOMON_TEST_GL    the kinds that in_every_gl_context tries: "4.5 3.3 es" if unset
+//     GNOMON_TEST_GL    the kinds that are tried: "4.5 3.3 es" if unset
 //     GNOMON_TEST_EGL   the library: libEGL.so.1 if unset
 #pragma once
 
@@ -34,6 +34,12 @@ struct gl_kind {
 inline constexpr gl_kind gl_4_5{false, 45, "4.5"};
 inline constexpr gl_kind gl_3_3{false, 33, "3.3"};
 inline constexpr gl_kind gl_es{true, 30, "es"};
+
+/// Does GNOMON_TEST_GL name it? All are wanted if unset.
+inline bool is_wanted(gl_kind kind) {
+    const char* names = std::getenv("GNOMON_TEST_GL");
+    return names == nullptr || (' ' + std::string(names) + ' ').find(' ' + std::string(kind.name) + ' ') != std::string::npos;
+}
 
 /// libEGL and its display without a screen; opened once, never closed.
 class egl {
