@@ -271,7 +271,7 @@ void write_pictures(bench& b, const std::string& folder) {
 int main(int count, char** words) {
     std::unique_ptr<test::gl_context> made; // the first of these
     for (const test::gl_kind kind : {test::gl_4_5, test::gl_3_3, test::gl_es})
-        if (test::is_wanted(kind) && (!made || !*made)) made = std::make_unique<test::gl_context>(kind);
+        if (test::gl_asked_for(kind.name) && (!made || !*made)) made = std::make_unique<test::gl_context>(kind);
     if (!made || !*made) {
         std::fprintf(stderr, "bench/gl: skipped: %s\n", made ? made->why_not().c_str() : "no GL context is asked for");
         return 0;

@@ -4,12 +4,18 @@
 #include <bit>
 #include <cassert>
 #include <cfloat>
+#include <charconv>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <initializer_list>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -42,6 +48,8 @@
 // complex.h, and what fmt tests with
 #define I 42
 
+#include <gnomon/gl/soft_shadow_map.hpp>
+#include <gnomon/gl/state.hpp>
 #include <gnomon/gnomon.hpp>
 
 int main() {

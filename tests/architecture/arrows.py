@@ -51,7 +51,7 @@ def check(include, _compiler):
                 complaints.append(f'{header}: "{name}" in quotes; write <gnomon/...>')
             if name.startswith("glm/") and here != "geometry":
                 complaints.append(f"{header}: <{name}>, but GLM belongs to geometry/")
-            if name.startswith(("GL/", "GLES", "KHR/", "EGL/")):
+            if name.startswith(("GL/", "GLES", "KHR/", "EGL/", "epoxy/", "glad/", "GLFW/", "SDL")):
                 complaints.append(f"{header}: <{name}>, but the host owns GL")
             if not name.startswith("gnomon/"):
                 continue
@@ -77,6 +77,10 @@ headers.main(check, [
     ("gnomon/backend/scalar.hpp", "#include <gnomon/soft_shadow_map.hpp>\n", "includes it back"),
     ("gnomon/geometry/light_frame.hpp", "# include <gnomon/soft_shadow_map.hpp>\n", "against the arrows"),
     ("gnomon/gnomon.hpp", "#include <gnomon/geometry/footprint.hpp>\n", "brings along"),
+    ("gnomon/gnomon.hpp", "#include <gnomon/gl/functions.hpp>\n", "brings along"),
+    ("gnomon/backend/scalar.hpp", "#include <gnomon/gl/enums.hpp>\n", "against the arrows"),
+    ("gnomon/gl/functions.hpp", "#include <GL/glcorearb.h>\n", "the host owns GL"),
+    ("gnomon/gl/context.hpp", "#include <epoxy/gl.h>\n", "the host owns GL"),
     ("gnomon/receive/decide.hpp", "#include <gnomon/filter/kernel.hpp>\n", "reconstruct.hpp brings along"),
     ("gnomon/texel/half.hpp", "  #  include <glm/vec3.hpp>\n", "GLM belongs"),
     ("gnomon/texel/half.hpp", '#include "channel.hpp"\n', "in quotes"),

@@ -2,8 +2,8 @@
 #include <gnomon/backend/scalar.hpp>
 #include <gnomon/soft_shadow_map.hpp>
 
-#include "../support/bits.hpp"
-#include "../support/filtering.hpp"
+#include "suite.hpp"
+
 #include "../support/formats.hpp"
 
 #include <doctest/doctest.h>
@@ -93,31 +93,7 @@ static_assert(!backend_for<near_miss::only_rg8, gnomon::rg16, box<1>> && !backen
 
 TEST_CASE_TEMPLATE("the scalar backend is the free functions", Texel, rg8, gnomon::rgba16, gnomon::rgb16f, gnomon::rga32f,
                    test::ratio_rgba8, test::paper32f) {
-    test::dice roll(121);
-    const auto casters = test::noise<Texel>(roll, {40, 30}, 4);
-    const image<Texel> soft = test::dense<binomial<2>>(casters);
-    image<Texel> by_backend(soft.size(), Texel::caster(0.25f));
-    filter_scratch<Texel, binomial<2>> scratch(40);
-    scalar{}.filter_region(image_view<const Texel>(casters.view()), by_backend.view(), whole(soft.size()), scratch);
-    CHECK(test::differences(by_backend, soft) == 0);
-
-    std::vector<float> x, y, z, found(40), expected(40);
-    for (int i = 0; i < 40; ++i) {
-        x.push_back(40 * roll.unit());
-        y.push_back(30 * roll.unit());
-        z.push_back(roll.unit());
-    }
-    const rule distant{.caster = {.depth = 0.25f}}; // so far from the default that losing it shows
-    int wrong = 0;
-    scalar{}.receive(soft.view().row_span(7), strided_span<const float>(z), strided_span<float>(found), distant);
-    for (int i = 0; i < 40; ++i)
-        wrong += !test::same_bits(found[static_cast<std::size_t>(i)],
-                                  gnomon::shadow(soft(i, 7), z[static_cast<std::size_t>(i)], distant));
-    scalar{}.receive(soft.view(), strided_span<const float>(x), strided_span<const float>(y), strided_span<const float>(z),
-                     strided_span<float>(found), distant);
-    gnomon::receive(soft.view(), x, y, z, expected, distant);
-    for (std::size_t i = 0; i < 40; ++i) wrong += !test::same_bits(found[i], expected[i]);
-    CHECK(wrong == 0);
+    test::is_the_free_functions<Texel>(scalar{});
 }
 
 TEST_CASE("filter hands its backend disjoint regions that hold what its radius reaches, whatever the guard band, and the whole map "

@@ -49,6 +49,8 @@ inline std::vector<std::pair<std::string, std::string>> golden_texts() {
     filter.operator()<tm8, tent<1>>("tm8_tent_1");
     filter.operator()<texel<unorm8, depth_ratio, effects{.far_bound = true, .translucency = true}>, gaussian<2>>(
         "tmba8_gaussian_2");
+    filter.operator()<rgba8, narrow<box<1>>>("rgba8_narrow_box_1");
+    filter.operator()<rg16f, narrow<tent<2>>>("rg16f_narrow_tent_2");
     return texts;
 }
 

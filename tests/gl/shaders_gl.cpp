@@ -43,6 +43,7 @@ template <typename Texel> void compile_texel(const gl::context& c) {
         for (const std::string_view main :
              {gl::receive_texels_main_text, gl::receive_points_main_text, gl::receive_screen_main_text})
             CHECK(complaint(c, enums::fragment_shader, receive + std::string(main)) == "");
+    if constexpr (Texel::representation_type::premultiplied) compile_filters<Texel, narrow<tent<2>>>(c);
     compile_filters<Texel, box<0>, box<2>, tent<2>, binomial<3>, fast<gaussian<4>>, gaussian<4>, box<20>, gaussian<20>>(c);
 }
 

@@ -75,6 +75,22 @@ namespace rows {
 #include "golden/rows_tmba8_gaussian_2.glsl"
 }
 } // namespace tmba8_gaussian
+namespace rgba8_narrow {
+namespace columns {
+#include "golden/columns_rgba8_narrow_box_1.glsl"
+}
+namespace rows {
+#include "golden/rows_rgba8_narrow_box_1.glsl"
+}
+} // namespace rgba8_narrow
+namespace rg16f_narrow {
+namespace columns {
+#include "golden/columns_rg16f_narrow_tent_2.glsl"
+}
+namespace rows {
+#include "golden/rows_rg16f_narrow_tent_2.glsl"
+}
+} // namespace rg16f_narrow
 } // namespace
 #include "../support/glsl_end.inl"
 
@@ -84,15 +100,16 @@ using namespace gnomon;
 namespace glsl = test::glsl;
 
 /// A stage of a shader: its main, its sampler, its output, and the sums that a fragment begins with.
-struct columns_stage {
+/// The scratch between the two holds `Number`s: unsigned integers, or what the map's texture does.
+template <typename Number> struct columns_stage {
     void (*main)();
     glsl::sampler2D* texels;
     void (*begin)();
-    glsl::uvec4 (*sums)();
+    glsl::vec<Number, 4> (*sums)();
 };
-struct rows_stage {
+template <typename Number> struct rows_stage {
     void (*main)();
-    glsl::usampler2D* sums;
+    glsl::sampler<Number>* sums;
     void (*begin)();
     glsl::vec4 (*texel)();
 };
@@ -101,6 +118,14 @@ template <typename T, int N> glsl::vec<T, 4> widened(const glsl::vec<T, N>& v) {
     glsl::vec<T, 4> made;
     for (int i = 0; i < N; ++i) made[i] = v[i];
     return made;
+}
+
+/// What a texture of the map's format keeps of a number. A driver may round or cut what it stores as a half: nothing is left to either.
+template <gnomon::channel Channel> typename Channel::storage kept(float v) {
+    if constexpr (!std::is_same_v<Channel, half16>) return Channel::encode(static_cast<double>(v));
+    const auto stored = half_from(static_cast<double>(v));
+    CHECK(test::glsl::real(half_to_float(stored)) == test::glsl::real(v));
+    return static_cast<typename Channel::storage>(stored);
 }
 
 /// An image as GL reads it: channels in [0, 1] as floats.
@@ -113,11 +138,12 @@ template <texel_format Texel> glsl::sampler2D texture(const image<Texel>& from) 
 }
 
 /// Both passes over a whole image. Texels are stored as GL stores them; the scratch must hold what the first pass writes.
-template <texel_format Texel, kernel Kernel>
-image<Texel> filtered_by(const columns_stage& columns, const rows_stage& rows, const image<Texel>& from) {
+template <texel_format Texel, kernel Kernel, typename Number>
+image<Texel> filtered_by(const columns_stage<Number>& columns, const rows_stage<Number>& rows, const image<Texel>& from) {
+    using channel_type = typename Texel::channel_type;
     const auto size = from.size();
-    std::vector<glsl::uvec4> sums(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
-    const auto at = [&](int x, int y) -> glsl::uvec4& { return sums[static_cast<std::size_t>(y * size.width + x)]; };
+    std::vector<glsl::vec<Number, 4>> sums(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+    const auto at = [&](int x, int y) -> glsl::vec<Number, 4>& { return sums[static_cast<std::size_t>(y * size.width + x)]; };
     *columns.texels = texture(from);
     *rows.sums = {glsl::ivec2(size.width, size.height), [&](glsl::ivec2 p) { return at(p.x, p.y); }};
     const auto place = [](int x, int y) {
@@ -129,7 +155,11 @@ image<Texel> filtered_by(const columns_stage& columns, const rows_stage& rows, c
         columns.begin();
         columns.main();
         at(x, y) = columns.sums();
-        for (int c = 0; c < Texel::channels; ++c) fits = fits && at(x, y)[c] <= gl::filter_scratch_largest<Texel, Kernel>;
+        for (int c = 0; c < Texel::channels; ++c)
+            if constexpr (std::is_same_v<Number, glsl::uint>)
+                fits = fits && at(x, y)[c] <= gl::filter_scratch_largest<Texel, Kernel>;
+            else
+                at(x, y)[c] = channel_type::decode(kept<channel_type>(at(x, y)[c].value));
     });
     CHECK(fits);
     image<Texel> to(size);
@@ -137,20 +167,13 @@ image<Texel> filtered_by(const columns_stage& columns, const rows_stage& rows, c
         place(x, y);
         rows.begin();
         rows.main();
-        for (int c = 0; c < Texel::channels; ++c) {
-            const float v = rows.texel()[c].value;
-            if constexpr (Texel::channel_type::whole_codes || std::is_same_v<Texel, rg32f> || std::is_same_v<Texel, rgba32f>)
-                to(x, y).stored[c] = Texel::channel_type::encode(static_cast<double>(v));
-            else { // a driver may round or cut what it stores as a half: here nothing is left to either
-                to(x, y).stored[c] = half_from(static_cast<double>(v));
-                CHECK(test::glsl::real(half_to_float(to(x, y).stored[c])) == test::glsl::real(v));
-            }
-        }
+        for (int c = 0; c < Texel::channels; ++c) to(x, y).stored[c] = kept<channel_type>(rows.texel()[c].value);
     });
     return to;
 }
 
-template <texel_format Texel, kernel Kernel> void compare(const columns_stage& columns, const rows_stage& rows) {
+template <texel_format Texel, kernel Kernel, typename Number>
+void compare(const columns_stage<Number>& columns, const rows_stage<Number>& rows) {
     test::dice roll(553);
     for (const extent size : {extent{1, 1}, extent{3, 2}, extent{23, 17}, extent{300, 5}, extent{4, 290}})
         for (const int sparseness : {1, 3, 40}) {
@@ -167,14 +190,15 @@ template <texel_format Texel, kernel Kernel> void compare(const columns_stage& c
 } // namespace
 
 // A text's stages; lambdas without captures, for a namespace is no argument.
-#define STAGES(space, reset)                                                                                                       \
-    columns_stage{space::columns::main, &space::columns::gnomon_texels, [] { space::columns::gnomon_sum = {}; },                   \
-                  [] { return widened(space::columns::gnomon_sums); }},                                                            \
+#define STAGES(number, space, reset)                                                                                               \
+    columns_stage<number>{space::columns::main, &space::columns::gnomon_texels, [] { space::columns::gnomon_sum = {}; },           \
+                          [] { return widened(space::columns::gnomon_sums); }},                                                    \
         rows_stage {                                                                                                               \
         space::rows::main, &space::rows::gnomon_sums, [] { reset; }, [] { return widened(space::rows::gnomon_texel); }             \
     }
-#define ONE_WORD(space) STAGES(space, space::rows::gnomon_sum = {})
-#define TWO_WORDS(space) STAGES(space, space::rows::gnomon_low = {}; space::rows::gnomon_high = {})
+#define ONE_WORD(space) STAGES(glsl::uint, space, space::rows::gnomon_sum = {})
+#define NARROW(space) STAGES(glsl::real, space, space::rows::gnomon_sum = {})
+#define TWO_WORDS(space) STAGES(glsl::uint, space, space::rows::gnomon_low = {}; space::rows::gnomon_high = {})
 
 TEST_CASE("a map of bytes is filtered in GLSL as by the scalar filter") { compare<rg8, binomial<2>>(ONE_WORD(rg8_binomial)); }
 TEST_CASE("sums of two words in GLSL, divided by a power of two, are those of the scalar filter") {
@@ -193,4 +217,9 @@ TEST_CASE("floats are filtered in GLSL as by the fast filter") { compare<rgba32f
 TEST_CASE("a ratio of depth and mask is filtered in GLSL as by the scalar filter") { compare<tm8, tent<1>>(ONE_WORD(tm8_tent)); }
 TEST_CASE("a ratio of sums of two words is that of the scalar filter, bound and contribution with it") {
     compare<test::ratio_rgba8, gaussian<2>>(TWO_WORDS(tmba8_gaussian));
+}
+TEST_CASE("a narrow filter rounds to the map's own format between the passes, in GLSL as on the CPU") {
+    static_assert(gl::filter_scratch_largest<rgba8, narrow<box<1>>> == 0);
+    compare<rgba8, narrow<box<1>>>(NARROW(rgba8_narrow));
+    compare<rg16f, narrow<tent<2>>>(NARROW(rg16f_narrow));
 }

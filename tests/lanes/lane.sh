@@ -2,7 +2,7 @@
 # and says with `row` what came out. `finish` prints the table.
 jobs=$(nproc)
 base_packages=(g++ cmake ninja-build pkg-config python3 doctest-dev libglm-dev libcli11-dev libembree-dev libstb-dev
-    libtinyobjloader-dev nlohmann-json3-dev glmark2-data qemu-user)
+    libtinyobjloader-dev nlohmann-json3-dev glmark2-data qemu-user libegl1 libgl1-mesa-dri libepoxy-dev libgles-dev)
 
 table=() passed=0 failed=0
 

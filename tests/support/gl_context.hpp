@@ -7,10 +7,14 @@
 //
 // What Mesa reads from the environment, tried with 22.3: for every context anew MESA_GL_VERSION_OVERRIDE and
 // MESA_GLSL_VERSION_OVERRIDE, so GL 3.3 and 4.5 may stand side by side; but only once, before the first context of the process,
-// MESA_GLES_VERSION_OVERRIDE, MESA_EXTENSION_OVERRIDE and GALLIUM_DRIVER. So which OpenGL ES and which rasteriser a process gets is
-// said by who starts it: CMakeLists.txt and lanes/gl.sh, which also know these two:
-//     GNOMON_TEST_GL    the kinds that are tried: "4.5 3.3 es" if unset
-//     GNOMON_TEST_EGL   the library: libEGL.so.1 if unset
+// MESA_GLES_VERSION_OVERRIDE, MESA_EXTENSION_OVERRIDE and GALLIUM_DRIVER. So a process has one OpenGL ES and one rasteriser, chosen by
+// whoever starts it, in words of GNOMON_TEST_GL; unset it is "4.5 3.3 es":
+//     4.5 3.3 es    the kinds that in_every_gl_context tries
+//     es3.0         es, of the lowest version, which Mesa then gives no 16-bit unorm
+//     eight_bits    ES has no extension that lets it draw into anything but bytes
+//     softpipe      Mesa's other rasteriser, a hundred times slower
+//     zink          Mesa's GL over its Vulkan rasteriser (Debian: mesa-vulkan-drivers)
+// GNOMON_TEST_EGL names the library, libEGL.so.1 if unset.
 #pragma once
 
 #include <gnomon/gl/context.hpp>
@@ -29,16 +33,16 @@ namespace test {
 struct gl_kind {
     bool es;
     int version;
-    const char* name; ///< in GNOMON_TEST_GL
+    const char* name;
 };
 inline constexpr gl_kind gl_4_5{false, 45, "4.5"};
 inline constexpr gl_kind gl_3_3{false, 33, "3.3"};
 inline constexpr gl_kind gl_es{true, 30, "es"};
 
-/// Does GNOMON_TEST_GL name it? All are wanted if unset.
-inline bool is_wanted(gl_kind kind) {
-    const char* names = std::getenv("GNOMON_TEST_GL");
-    return names == nullptr || (' ' + std::string(names) + ' ').find(' ' + std::string(kind.name) + ' ') != std::string::npos;
+/// Does GNOMON_TEST_GL hold the word?
+inline bool gl_asked_for(const std::string& word) {
+    const char* given = std::getenv("GNOMON_TEST_GL");
+    return (std::string(" ") + (given != nullptr ? given : "4.5 3.3 es") + ' ').find(' ' + word + ' ') != std::string::npos;
 }
 
 /// libEGL and its display without a screen; opened once, never closed.
@@ -62,6 +66,15 @@ class egl {
 
   private:
     egl() {
+        if (gl_asked_for("es3.0")) setenv("MESA_GLES_VERSION_OVERRIDE", "3.0", 1);
+        if (gl_asked_for("softpipe")) setenv("GALLIUM_DRIVER", "softpipe", 1);
+        if (gl_asked_for("zink")) {
+            setenv("GALLIUM_DRIVER", "zink", 1);
+            setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+        }
+        if (gl_asked_for("eight_bits"))
+            setenv("MESA_EXTENSION_OVERRIDE", "-GL_EXT_texture_norm16 -GL_EXT_color_buffer_float -GL_EXT_color_buffer_half_float",
+                   1);
         const char* given = std::getenv("GNOMON_TEST_EGL");
         const char* name = given != nullptr ? given : "libEGL.so.1";
         void* const library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
@@ -123,13 +136,11 @@ class gl_context {
         const auto* renderer = reinterpret_cast<const char*>(functions_.GetString(gnomon::gl::enums::renderer));
         name_ = (context_.es ? "ES " : "GL ") + std::to_string(context_.version / 10) + '.' +
                 std::to_string(context_.version % 10) + ' ' + std::string(renderer).substr(0, std::string(renderer).find(' '));
-        if (const char* less = std::getenv("MESA_EXTENSION_OVERRIDE")) name_ += std::string(" ") + less;
+        if (gl_asked_for("eight_bits")) name_ += ", eight bits";
     }
     ~gl_context() {
         if (handle_ == nullptr) return;
-        if (current() == this) {
-            make_none_current();
-        }
+        if (current() == this) make_none_current();
         egl::library().destroy_context(egl::library().display, handle_);
     }
     gl_context(const gl_context&) = delete;

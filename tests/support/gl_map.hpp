@@ -55,7 +55,11 @@ template <gnomon::texel_format Texel, gnomon::kernel Kernel> class gl_map {
         const guard forced(c_);
         gnomon::gl::begin_pass(c_, {.framebuffer = targets().into_scratch, .size = size_});
         constexpr unsigned rubbish[4] = {0xFFFFFFFFu, 0xA5A5A5A5u, 0xFFFFFFFFu, 0x80000001u};
-        c_.gl->ClearBufferuiv(gnomon::gl::enums::color, 0, rubbish);
+        constexpr float narrow_rubbish[4] = {0.75f, 0.5f, 1.0f, 0.25f};
+        if (passes_.scratch() == gnomon::gl::format_of<Texel>)
+            c_.gl->ClearBufferfv(gnomon::gl::enums::color, 0, narrow_rubbish);
+        else
+            c_.gl->ClearBufferuiv(gnomon::gl::enums::color, 0, rubbish);
     }
     void filter(gnomon::texel_rect region, gnomon::gl::rectangles_by way = gnomon::gl::rectangles_by::instances) {
         const guard forced(c_);

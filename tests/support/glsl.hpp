@@ -97,6 +97,7 @@ template <typename T, int N> struct vec : components<T, N> {
         for (int i = 0; i < N; ++i) made[i] = f(a[i], b[i]);
         return made;
     }
+    friend vec operator-(const vec& a) { return vec(T{}) - a; }
     friend vec operator+(const vec& a, const vec& b) {
         return each(a, b, [](T p, T q) { return p + q; });
     }
@@ -127,6 +128,7 @@ using vec2 = vec<real, 2>;
 using vec3 = vec<real, 3>;
 using vec4 = vec<real, 4>;
 using uvec2 = vec<uint, 2>;
+using uvec3 = vec<uint, 3>;
 using uvec4 = vec<uint, 4>;
 using ivec2 = vec<int, 2>;
 using ivec4 = vec<int, 4>;
@@ -162,6 +164,8 @@ template <int N> vec<real, N> floor(const vec<real, N>& v) {
     return made;
 }
 inline uint max(uint a, uint b) { return a < b ? b : a; }
+inline uint min(uint a, uint b) { return b < a ? b : a; }
+inline int max(int a, int b) { return a < b ? b : a; }
 inline real max(real a, real b) { return a < b ? b : a; }
 
 /// A texture is what is read from it.

@@ -23,7 +23,7 @@ template <kernel Kernel, texel_format Texel>
 inline constexpr bool filtered_in_lanes = [] {
     constexpr double total = detail::sums<Texel, Kernel>::weights_of::total;
     constexpr bool exact = Texel::channels == 2 && Texel::linear_scale * total * total < 0x1p53;
-    return Kernel::radius <= 256 && (Texel::representation_type::premultiplied || exact);
+    return Kernel::radius <= 256 && !detail::is_narrow<Kernel> && (Texel::representation_type::premultiplied || exact);
 }();
 
 /// What serves a texel and a kernel best. All give the same bits where several can.

@@ -26,8 +26,19 @@ template <kernel Kernel> struct fast {
     using exact = Kernel;
 };
 
+/// Any kernel, where nothing wider than the map itself may lie between the passes, as on a GPU short of memory or of formats:
+/// filter_scratch<rg8, narrow<binomial<3>>>. Columns are rounded to the texel's own numbers, then rows: so a pair is rounded twice, and
+/// unorm codes are at most one off instead of half. Half and float are computed in single precision. Not for depth_ratio.
+template <kernel Kernel> struct narrow {
+    static constexpr int radius = Kernel::radius;
+    static constexpr int total = Kernel::total;
+    static constexpr auto weights = Kernel::weights;
+    using within = Kernel;
+};
+
 namespace detail {
 
+template <kernel Kernel> inline constexpr bool is_narrow = requires { typename Kernel::within; };
 template <kernel Kernel> inline constexpr bool is_fast = requires { typename Kernel::exact; };
 /// Every tap the same.
 template <kernel Kernel> inline constexpr bool is_box = Kernel::total == 2 * Kernel::radius + 1 && Kernel::weights[0] == 1;
@@ -63,6 +74,16 @@ struct plan<Texel, Kernel> {
         std::conditional_t<bytes, in_units<given, 256>, std::conditional_t<ratios, in_units<given, 1024>, given>>>;
 };
 
+template <texel_format Texel, kernel Kernel>
+    requires is_narrow<Kernel>
+struct plan<Texel, Kernel> {
+    static_assert(
+        Texel::representation_type::premultiplied,
+        "gnomon: narrow<Kernel>: a ratio of depth and mask is made from sums of both passes; filter it by the kernel itself");
+    static constexpr auto how = Texel::channel_type::whole_codes ? arithmetic::stored : arithmetic::single;
+    using weights_of = typename Kernel::within;
+};
+
 } // namespace detail
 
 /// How many roundings of the texel's channel a filter's error amounts to: `bias::roundings`, unless more is stored between.
@@ -73,7 +94,9 @@ inline constexpr int filter_roundings = [] {
     if (chosen::how == detail::arithmetic::stored) return 2;
     // Each term of a sum of 2R+1 is rounded as a product and in at most 2R sums; then the two passes' weights are divided out.
     constexpr int roundings = 2 * (2 * Kernel::radius + 1) + 2;
-    return std::same_as<typename Texel::channel_type, float32> ? roundings + 1 : 2; // of 2^-24 each: in halves less than one
+    return std::same_as<typename Texel::channel_type, float32>
+               ? roundings + 1
+               : (detail::is_narrow<Kernel> ? 3 : 2); // of 2^-24 each: in halves less than one
 }();
 
 } // namespace gnomon::inline GNOMON_BUILD

@@ -78,6 +78,8 @@ template <texel_format Texel, kernel Kernel> struct sums {
     [[nodiscard]] static constexpr element between(element sum) noexcept {
         if constexpr (stored_between)
             return (sum + weights_of::total / 2) / weights_of::total;
+        else if constexpr (is_narrow<Kernel>)
+            return static_cast<element>(Texel::channel_type::code(Texel::channel_type::store(sum)));
         else if constexpr (Texel::channel_type::whole_codes || in_floats)
             return sum;
         else

@@ -61,6 +61,9 @@ class truth {
 ///
 /// A comparison with a product is exact, as it is in doubles: it is written as a call of gnomon_exceeds, see shader_exact.hpp. All else
 /// is single precision, so a formula has to be exact in that, or say what it loses.
+///
+/// A wide number is a vec2 whose components are to be added, see exceeds_blend_text. It stays wide where another is added or subtracted,
+/// and is compared exactly with a product of one; all else makes a float of it.
 class number {
   public:
     number() : number(0.0f) {}
@@ -70,33 +73,42 @@ class number {
     /// Something that has a name in the shader. What is made of it becomes temporaries of `where`, if that is told.
     explicit number(std::string name, block* where = nullptr) : text_(std::move(name)), where_(where) {}
 
+    [[nodiscard]] static number wide(std::string name, block* where) {
+        number made(std::move(name), where);
+        made.wide_ = true;
+        return made;
+    }
+
     [[nodiscard]] const std::string& text() const noexcept { return text_; }
     [[nodiscard]] block* where() const noexcept { return where_; }
+    [[nodiscard]] bool is_wide() const noexcept { return wide_; }
     /// A name or a literal: what needs no temporary.
     [[nodiscard]] bool is_short() const noexcept { return holds_ == binding::name; }
 
     [[nodiscard]] friend number operator-(const number& a) {
-        return a.value_ ? number(-*a.value_) : number('-' + a.within(binding::name), a, a, binding::product);
+        return a.value_ ? number(-*a.value_) : number('-' + a.within(binding::name), a, a, binding::product).as_wide_as(a);
     }
     [[nodiscard]] friend number operator+(const number& a, const number& b) {
         if (b.is(0.0f)) return a;
-        return number(a.within(binding::sum) + " + " + b.within(binding::sum), a, b, binding::sum);
+        const number more = b.beside(a);
+        return number(a.within(binding::sum) + " + " + more.within(binding::sum), a, b, binding::sum).as_wide_as(a);
     }
     [[nodiscard]] friend number operator-(const number& a, const number& b) {
         if (b.value_ && *b.value_ <= 0.0f) return a + number(0.0f - *b.value_);
         if (b.is(0.0f)) return a;
-        return number(a.within(binding::sum) + " - " + b.within(binding::product), a, b, binding::sum);
+        const number less = b.beside(a);
+        return number(a.within(binding::sum) + " - " + less.within(binding::product), a, b, binding::sum).as_wide_as(a);
     }
     [[nodiscard]] friend number operator*(const number& a, const number& b) {
         if (b.is(1.0f)) return a;
         if (a.is(1.0f)) return b;
-        number made(a.within(binding::product) + " * " + b.within(binding::name), a, b, binding::product);
+        number made(a.one().within(binding::product) + " * " + b.one().within(binding::name), a, b, binding::product);
         made.factors_ = {a.text_, b.text_, (-a).text_};
         return made;
     }
     [[nodiscard]] friend number operator/(const number& a, const number& b) {
         if (b.is(1.0f)) return a;
-        return number(a.within(binding::product) + " / " + b.within(binding::name), a, b, binding::product);
+        return number(a.one().within(binding::product) + " / " + b.one().within(binding::name), a, b, binding::product);
     }
 
     [[nodiscard]] friend truth operator>(const number& a, const number& b) {
@@ -123,8 +135,8 @@ class number {
     }
     [[nodiscard]] friend number select(const truth& condition, const number& a, const number& b) {
         if (condition.value()) return *condition.value() ? a : b;
-        return number(condition.within(binding::both) + " ? " + a.within(binding::sum) + " : " + b.within(binding::sum), a, b,
-                      binding::choice);
+        return number(condition.within(binding::both) + " ? " + a.one().within(binding::sum) + " : " + b.one().within(binding::sum),
+                      a, b, binding::choice);
     }
 
   private:
@@ -135,10 +147,25 @@ class number {
     number(std::string text, const number& a, const number& b, binding holds)
         : text_(std::move(text)), where_(any(a.where_, b.where_)), holds_(holds) {}
 
+    [[nodiscard]] number as_wide_as(const number& other) && {
+        wide_ = other.wide_;
+        return std::move(*this);
+    }
+    /// As a float.
+    [[nodiscard]] number one() const {
+        const std::string name = within(binding::name);
+        return wide_ ? number(name + ".x + " + name + ".y", *this, *this, binding::sum) : *this;
+    }
+    /// As wide as `other`.
+    [[nodiscard]] number beside(const number& other) const {
+        if (wide_ == other.wide_) return *this;
+        return wide_ ? one() : number("vec2(" + text_ + ", 0.0)", *this, *this, binding::name);
+    }
     [[nodiscard]] bool is(float v) const noexcept { return value_ && same(*value_, v); }
     [[nodiscard]] std::string within(binding place) const { return holds_ < place ? '(' + text_ + ')' : text_; }
     [[nodiscard]] static truth compared(const number& a, const char* how, const number& b) {
-        return truth(a.within(binding::sum) + how + b.within(binding::sum), binding::comparison, any(a.where_, b.where_));
+        return truth(a.one().within(binding::sum) + how + b.one().within(binding::sum), binding::comparison,
+                     any(a.where_, b.where_));
     }
     [[nodiscard]] static block* any(block* a, block* b) noexcept { return a != nullptr ? a : b; }
 
@@ -147,13 +174,17 @@ class number {
     std::optional<product> factors_ = {};
     block* where_ = nullptr;
     binding holds_ = binding::name;
+    bool wide_ = false;
 };
 
 /// The statements of a function, in order. Temporaries that nothing uses are left out.
 class block {
   public:
     /// A temporary of this name, or of one like it if the name is taken.
-    number let(const char* name, const number& value) { return number(declare("precise float ", name, value.text()), this); }
+    number let(const char* name, const number& value) {
+        if (value.is_wide()) return number::wide(declare("precise vec2 ", name, value.text()), this);
+        return number(declare("precise float ", name, value.text()), this);
+    }
     truth let(const char* name, const truth& value) { return truth(declare("bool ", name, value.text()), binding::name, this); }
     /// Any other statement.
     void say(std::string statement) { lines_.push_back({"", std::move(statement)}); }
@@ -183,10 +214,11 @@ class block {
     }
     /// As a word of its own, and not as a member of something.
     [[nodiscard]] static bool mentions(const std::string& text, const std::string& name) {
-        const auto joins = [](char c) { return c == '_' || c == '.' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z'); };
+        const auto joins = [](char c) { return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z'); };
         for (auto at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
             const auto end = at + name.size();
-            if ((at == 0 || !joins(text[at - 1])) && (end == text.size() || !joins(text[end]))) return true;
+            if ((at == 0 || (text[at - 1] != '.' && !joins(text[at - 1]))) && (end == text.size() || !joins(text[end])))
+                return true;
         }
         return false;
     }

@@ -58,10 +58,10 @@ class map_textures {
     [[nodiscard]] problem make_all(const context& c, const format& texels, const format& scratch, const lent_textures& lent) {
         problem why;
         const auto take = [&why](auto& owner, unsigned& name, auto made) {
-            if (!made) return why = made.error(), false;
-            owner = *std::move(made);
+            if (made) owner = *std::move(made);
             name = owner.name();
-            return true;
+            why = made.error();
+            return !why;
         };
         unsigned depth = 0;
         map_targets& t = targets_;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <gnomon/gl/map_textures.hpp>
-#include <gnomon/gl/program.hpp>
+#include <gnomon/gl/pass_program.hpp>
 #include <gnomon/gl/rectangles.hpp>
-#include <gnomon/gl/shaders.hpp>
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -61,19 +61,19 @@ template <texel_format Texel, kernel Kernel> class passes {
     /// Forgets casters: their colours, and that any surface was there.
     template <typename Walk> void clear_casters(const context& c, const map_targets& map, Walk&& walk) {
         begin_pass(c, {.framebuffer = map.into_casters, .size = map.size, .depth = depth_use::overwritten});
-        use(c, clear_, map.size);
+        clear_.use(c, map.size);
         rectangles_.draw(c, walk);
     }
     template <typename Walk> void clear_soft(const context& c, const map_targets& map, Walk&& walk) {
         begin_pass(c, {.framebuffer = map.into_soft, .size = map.size});
-        use(c, clear_, map.size);
+        clear_.use(c, map.size);
         rectangles_.draw(c, walk);
     }
 
     /// Casts rectangles, the nearest on top.
     template <typename Walk> void cast(const context& c, const map_targets& map, Walk&& walk) {
         begin_casters(c, map);
-        use(c, cast_, map.size);
+        cast_.use(c, map.size);
         rectangles_.draw(c, walk);
     }
     /// Bounds the shadows of what was cast.
@@ -81,7 +81,7 @@ template <texel_format Texel, kernel Kernel> class passes {
         requires(Texel::effects.far_bound)
     void bound(const context& c, const map_targets& map, Walk&& walk) {
         begin_bounds<Texel>(c, map);
-        use(c, bound_, map.size);
+        bound_.use(c, map.size);
         rectangles_.draw(c, walk);
     }
 
@@ -89,8 +89,8 @@ template <texel_format Texel, kernel Kernel> class passes {
     template <typename Walk>
     void blur_columns(const context& c, const map_targets& map, Walk&& walk, rectangles_by way = rectangles_by::instances) {
         begin_pass(c, {.framebuffer = map.into_scratch, .size = map.size});
-        use(c, columns_, map.size);
-        bind(c, map.casters);
+        columns_.use(c, map.size);
+        bind_textures(c, {map.casters});
         rectangles_.draw(c, way, map.size, [&](auto&& f) {
             walk([&](texel_rect r) { f(clip({r.x0 - Kernel::radius, r.y0, r.x1 + Kernel::radius, r.y1}, map.size)); });
         });
@@ -99,8 +99,8 @@ template <texel_format Texel, kernel Kernel> class passes {
     template <typename Walk>
     void blur_rows(const context& c, const map_targets& map, Walk&& walk, rectangles_by way = rectangles_by::instances) {
         begin_pass(c, {.framebuffer = map.into_soft, .size = map.size});
-        use(c, rows_, map.size);
-        bind(c, map.scratch);
+        rows_.use(c, map.size);
+        bind_textures(c, {map.scratch});
         rectangles_.draw(c, way, map.size, walk);
     }
     /// Both. The scratch is trusted for nothing: each texel that is read of it was written by the same call.
@@ -112,55 +112,39 @@ template <texel_format Texel, kernel Kernel> class passes {
 
     /// What the scratch of a map for these passes is.
     [[nodiscard]] static const format& scratch() noexcept {
-        return scratch_format(Texel::channels, filter_scratch_largest<Texel, Kernel>);
+        constexpr std::uint32_t largest = filter_scratch_largest<Texel, Kernel>;
+        return largest == 0 ? format_of<Texel> : scratch_format(Texel::channels, largest);
     }
 
     void forget() noexcept {
-        for (sized_program* each : {&clear_, &cast_, &bound_, &columns_, &rows_}) each->program.forget();
+        for (pass_program* each : {&clear_, &cast_, &bound_, &columns_, &rows_}) each->forget();
         rectangles_.forget();
     }
 
   private:
-    struct sized_program {
-        gl::program program = {};
-        int size = -1; ///< where its gnomon_size is
-    };
-
     [[nodiscard]] problem make_all(const context& c) {
         result<rectangle_list> list = rectangle_list::make(c);
         if (!list) return list.error();
         rectangles_ = *std::move(list);
-        constexpr std::string_view over = rectangles_vertex_text, with = surfaces_vertex_text;
-        if (problem why = make_one(c, clear_, over, clear_text())) return why;
-        if (problem why = make_one(c, cast_, with, caster_rectangles_text<Texel>())) return why;
-        if constexpr (Texel::effects.far_bound)
-            if (problem why = make_one(c, bound_, with, bound_rectangles_text<Texel>())) return why;
-        if (problem why = make_one(c, columns_, over, filter_columns_text<Texel, Kernel>(), "gnomon_texels")) return why;
-        return make_one(c, rows_, over, filter_rows_text<Texel, Kernel>(), "gnomon_sums");
-    }
-    [[nodiscard]] static problem make_one(const context& c, sized_program& into, std::string_view vertex, std::string_view fragment,
-                                          const char* texels = nullptr) {
-        const std::string header(glsl_header(glsl_version_of(c)));
-        result<program> made = make_program(c, header + std::string(vertex), header + std::string(fragment));
-        if (!made) return made.error();
-        into.program = *std::move(made);
-        into.size = c.gl->GetUniformLocation(into.program.name(), "gnomon_size");
-        if (texels == nullptr) return {};
-        c.gl->UseProgram(into.program.name());
-        c.gl->Uniform1i(c.gl->GetUniformLocation(into.program.name(), texels), 0);
-        return {};
+        problem why;
+        const auto take = [&](pass_program& into, std::string_view vertex, const std::string& fragment, auto... samplers) {
+            result<pass_program> one = pass_program::make(c, vertex, fragment, {samplers...});
+            if (one) into = *std::move(one);
+            why = one.error();
+            return !why;
+        };
+        bool all = take(clear_, rectangles_vertex_text, clear_text()) &&
+                   take(cast_, surfaces_vertex_text, caster_rectangles_text<Texel>()) &&
+                   take(columns_, rectangles_vertex_text, filter_columns_text<Texel, Kernel>(), "gnomon_texels") &&
+                   take(rows_, rectangles_vertex_text, filter_rows_text<Texel, Kernel>(), "gnomon_sums");
+        if constexpr (Texel::effects.far_bound) all = all && take(bound_, surfaces_vertex_text, bound_rectangles_text<Texel>());
+        return all ? problem{} : why;
     }
     [[nodiscard]] static std::string clear_text() {
         return "// gnomon: clear\nlayout(location = 0) out vec4 gnomon_texel;\n\nvoid main() {\n    gl_FragDepth = 0.0;\n    "
                "gnomon_texel = vec4(0.0);\n}\n";
     }
-    static void use(const context& c, const sized_program& p, extent size) {
-        c.gl->UseProgram(p.program.name());
-        c.gl->Uniform2i(p.size, size.width, size.height);
-    }
-    static void bind(const context& c, unsigned name) { c.gl->BindTexture(enums::texture_2d, name); }
-
-    sized_program clear_, cast_, bound_, columns_, rows_;
+    pass_program clear_, cast_, bound_, columns_, rows_;
     rectangle_list rectangles_;
 };
 

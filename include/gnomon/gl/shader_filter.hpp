@@ -14,7 +14,9 @@ namespace gl {
 /// The kernel that GL filters with. Whole codes: as it is. GL has no double, so half and float are always filtered as by fast<Kernel>;
 /// an engine's rule has filter_roundings<Texel, kernel_in_gl<Texel, Kernel>>.
 template <texel_format Texel, kernel Kernel>
-using kernel_in_gl = std::conditional_t<Texel::channel_type::whole_codes || gnomon::detail::is_fast<Kernel>, Kernel, fast<Kernel>>;
+using kernel_in_gl =
+    std::conditional_t<Texel::channel_type::whole_codes || gnomon::detail::is_fast<Kernel> || gnomon::detail::is_narrow<Kernel>,
+                       Kernel, fast<Kernel>>;
 
 namespace detail {
 
@@ -29,6 +31,7 @@ template <texel_format Texel, kernel Kernel> struct filter_in_gl {
     static constexpr std::uint64_t most = ratio ? scale * scale : scale, most_between = by::stored_between ? most : most * total;
     static constexpr std::uint64_t whole = by::stored_between ? total : total * total;
     static constexpr bool two_words = whole_codes && most * whole + whole / 2 > 0xFFFFFFFFu; ///< a sum of the second pass
+    static constexpr bool narrow = gnomon::detail::is_narrow<Kernel>;
     /// Small kernels are written out, tap by tap; larger ones are loops over a table of weights.
     static constexpr bool written_out = Kernel::radius <= 16;
     static_assert(
@@ -39,10 +42,12 @@ template <texel_format Texel, kernel Kernel> struct filter_in_gl {
 } // namespace detail
 
 /// The largest number that the first pass leaves to the second, for each channel an unsigned integer; half and float leave a float's
-/// bits. So the scratch is RG16UI, RG32UI, RGBA16UI or RGBA32UI.
+/// bits. So the scratch is RG16UI, RG32UI, RGBA16UI or RGBA32UI; 0 by a narrow kernel, whose scratch is a texture like the map's.
 template <texel_format Texel, kernel Kernel>
 inline constexpr std::uint32_t filter_scratch_largest =
-    Texel::channel_type::whole_codes ? static_cast<std::uint32_t>(detail::filter_in_gl<Texel, Kernel>::most_between) : 0xFFFFFFFFu;
+    detail::filter_in_gl<Texel, Kernel>::narrow ? 0u
+    : Texel::channel_type::whole_codes          ? static_cast<std::uint32_t>(detail::filter_in_gl<Texel, Kernel>::most_between)
+                                                : 0xFFFFFFFFu;
 
 namespace detail {
 
@@ -120,9 +125,11 @@ template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_co
     static_assert(kernel_is_sound<Kernel>());
     using of = detail::filter_in_gl<Texel, Kernel>;
     using detail::vec;
-    std::string text = "// gnomon: columns of " + detail::filter_name<Texel, Kernel>() + R"(
-uniform sampler2D gnomon_texels;
-layout(location = 0) out @uvec gnomon_sums;
+    constexpr bool is_half = std::is_same_v<typename Texel::channel_type, half16>;
+    std::string text = "// gnomon: columns of " + detail::filter_name<Texel, Kernel>() + "\n";
+    if (of::narrow && is_half) text += std::string(half_text) + "\n";
+    text += R"(uniform sampler2D gnomon_texels;
+layout(location = 0) out @stored gnomon_sums;
 @weights
 @sum gnomon_sum = @zero;
 
@@ -138,13 +145,17 @@ void gnomon_add(@number weight, int away) {
     else
         text += "    gnomon_sum += weight * @linear;\n";
     text += "}\n\nvoid main() {\n@taps    gnomon_sums = @result;\n}\n";
-    const std::string result = !of::whole_codes         ? "floatBitsToUint(gnomon_sum)"
-                               : of::by::stored_between ? "(gnomon_sum + @halfu) / @wholeu"
-                                                        : "gnomon_sum";
+    const std::string result = of::narrow && is_half            ? detail::each_component<Texel>("gnomon_half(gnomon_sum.", ")")
+                               : of::narrow && !of::whole_codes ? "gnomon_sum"
+                               : of::narrow                     ? "@vec((gnomon_sum + @halfu) / @wholeu) / @scale"
+                               : !of::whole_codes               ? "floatBitsToUint(gnomon_sum)"
+                               : of::by::stored_between         ? "(gnomon_sum + @halfu) / @wholeu"
+                                                                : "gnomon_sum";
     return detail::filled(text, {{"weights", detail::weights_text<Texel, Kernel>()},
                                  {"taps", detail::taps_text<Texel, Kernel>()},
                                  {"linear", detail::linear_text<Texel>()},
                                  {"result", result},
+                                 {"stored", vec<Texel>(of::narrow ? "" : "u")},
                                  {"scale", detail::literal(Texel::channel_type::scale)},
                                  {"half", std::to_string(of::total / 2)},
                                  {"whole", std::to_string(of::total)},
@@ -201,15 +212,16 @@ template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string codes_tex
 } // namespace detail
 
 /// The second pass and the last rounding: the map's texels from the sums of the first. Uniform usampler2D `gnomon_sums`: the scratch, as
-/// large as the map; what lies to the left and right of it is clear, and of it no more is read than R columns beside a rectangle.
+/// large as the map (a sampler2D by a narrow kernel); what lies to the left and right of it is clear, and of it no more is read than R columns beside a rectangle.
 template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_rows_text() {
     detail::check_texel<Texel>();
     static_assert(kernel_is_sound<Kernel>());
     using of = detail::filter_in_gl<Texel, Kernel>;
     using detail::vec;
+    constexpr bool is_half = std::is_same_v<typename Texel::channel_type, half16>;
     std::string text = "// gnomon: rows of " + detail::filter_name<Texel, Kernel>() + "\n";
-    if (std::is_same_v<typename Texel::channel_type, half16>) text += std::string(half_text) + "\n";
-    text += R"(uniform usampler2D gnomon_sums;
+    if (is_half) text += std::string(half_text) + "\n";
+    text += R"(uniform @sampler gnomon_sums;
 layout(location = 0) out @vec gnomon_texel;
 @weights@division
 )";
@@ -219,12 +231,11 @@ layout(location = 0) out @vec gnomon_texel;
 void gnomon_add(@number weight, int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
     if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
-    @uvec sums = @uvec(texelFetch(gnomon_sums, at, 0));
+    @fetch
 )";
-    text += !of::whole_codes
-                ? "    precise @vec product = weight * uintBitsToFloat(sums);\n    gnomon_sum = gnomon_sum + product;\n"
-            : of::two_words ? "    gnomon_low += weight * (sums & 0xFFFFu);\n    gnomon_high += weight * (sums >> 16);\n"
-                            : "    gnomon_sum += weight * sums;\n";
+    text += !of::whole_codes ? "    precise @vec product = weight * sums;\n    gnomon_sum = gnomon_sum + product;\n"
+            : of::two_words  ? "    gnomon_low += weight * (sums & 0xFFFFu);\n    gnomon_high += weight * (sums >> 16);\n"
+                             : "    gnomon_sum += weight * sums;\n";
     text += "}\n\nvoid main() {\n";
     text += "@taps";
     if constexpr (!of::whole_codes) {
@@ -232,7 +243,7 @@ void gnomon_add(@number weight, int away) {
         if (whole < 1.0f || whole > 1.0f) text += "    gnomon_sum = gnomon_sum / " + detail::literal(whole) + ";\n";
         text += "    gnomon_texel = ";
         const std::string halves = detail::each_component<Texel>("gnomon_half(gnomon_sum.", ")");
-        text += std::is_same_v<typename Texel::channel_type, half16> ? halves : "gnomon_sum";
+        text += is_half ? halves : "gnomon_sum";
     } else {
         if (of::ratio)
             text += std::string("    if (gnomon_nearest(") +
@@ -241,7 +252,14 @@ void gnomon_add(@number weight, int away) {
         text += "    @uvec codes = @codes;\n    gnomon_texel = @vec(codes) / @scale";
     }
     text += ";\n}\n";
-    return detail::filled(text, {{"weights", detail::weights_text<Texel, Kernel>()},
+    const char* const fetch = of::narrow && of::whole_codes
+                                  ? "@uvec sums = @uvec(@vec(texelFetch(gnomon_sums, at, 0)) * @scale + 0.5);"
+                              : of::narrow      ? "@vec sums = @vec(texelFetch(gnomon_sums, at, 0));"
+                              : of::whole_codes ? "@uvec sums = @uvec(texelFetch(gnomon_sums, at, 0));"
+                                                : "@vec sums = uintBitsToFloat(@uvec(texelFetch(gnomon_sums, at, 0)));";
+    return detail::filled(text, {{"sampler", of::narrow ? "sampler2D" : "usampler2D"},
+                                 {"fetch", fetch},
+                                 {"weights", detail::weights_text<Texel, Kernel>()},
                                  {"division", detail::division_text<Texel, Kernel>()},
                                  {"taps", detail::taps_text<Texel, Kernel>()},
                                  {"codes", detail::codes_text<Texel, Kernel>()},

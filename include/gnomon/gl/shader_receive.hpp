@@ -29,7 +29,10 @@ template <texel_format Texel> struct shader_rule {
     [[nodiscard]] static shader_rule uniforms() {
         const auto of = [](const std::string& name) {
             const auto part = [&](const char* component) { return glsl::number("gnomon_" + name + component); };
-            return steps{part("_bias.x"), part("_bias.y"), part("_bias.z"), part("_bias.w"), part("_nearer")};
+            const auto share = [&](const char* component) { // of whole codes it is 1
+                return Texel::channel_type::whole_codes ? glsl::number(1) : part(component);
+            };
+            return steps{part("_bias.x"), share("_bias.y"), part("_bias.z"), share("_bias.w"), part("_nearer")};
         };
         std::string declarations =
             "\nuniform vec4 gnomon_caster_bias; // less of the depth, its share, more of the mask, its share\n"
@@ -42,13 +45,23 @@ template <texel_format Texel> struct shader_rule {
 
 namespace detail {
 
-/// float gnomon_shadow(vec2 texel, float z): shadow(filtered, z, rule), of a texel in codes.
-template <texel_format Texel> [[nodiscard]] std::string decide_text(const shader_rule<Texel>& by) {
+/// Blends of these have more bits than a float, and are decided in parts. (Those of halves and floats are rounded to floats by `apply`,
+/// and those of bytes are floats.)
+template <texel_format Texel> inline constexpr bool wide_blends = Texel::channel_type::whole_codes && Texel::linear_scale > 255.0;
+
+/// A channel of a texel in codes, or of a blend in whole codes and their fractions.
+[[nodiscard]] inline glsl::number channel_of(glsl::block& body, bool wide, char component) {
+    const std::string of(1, component);
+    if (!wide) return glsl::number("texel." + of, &body);
+    return body.let(("code_" + of).c_str(), glsl::number::wide("vec2(whole." + of + ", fraction." + of + ")", &body));
+}
+
+/// float gnomon_shadow(vec2 texel, float z): shadow(filtered, z, rule), of a texel in codes; or gnomon_shadow_of_blend.
+template <texel_format Texel> [[nodiscard]] std::string decide_text(const shader_rule<Texel>& by, bool wide = false) {
     using glsl::number;
     glsl::block body;
-    const auto texel = [&]<std::size_t... C>(std::index_sequence<C...>) {
-        return filtered<Texel, number>{{number(std::string("texel.") + "xyzw"[C], &body)...}};
-    }(std::make_index_sequence<static_cast<std::size_t>(Texel::channels)>());
+    filtered<Texel, number> texel{};
+    for (int c = 0; c < Texel::channels; ++c) texel.code[c] = channel_of(body, wide, "xyzw"[c]);
     const number z("z", &body);
 
     body.say("if (" + (!both(texel.mask() > number(0), gnomon::detail::may_be_shadowed(z, by.lit_beyond))).text() +
@@ -57,12 +70,17 @@ template <texel_format Texel> [[nodiscard]] std::string decide_text(const shader
     number left(1);
     if constexpr (Texel::effects.far_bound) left = gnomon::detail::before_far_bound(texel, z, by.far_bound, by.fade);
     body.say("return " + gnomon::detail::intensity_of<Texel>(texel.contribution(), let("kept", left)).text() + ";");
-    return filled(R"(
+    const std::string_view single = R"(
 // intensity of the shadow on a receiver at depth z, by the numbers of a filtered texel in codes
 float gnomon_shadow(@vec texel, float z) {
 @body}
 )",
-                  {{"body", body.text()}, {"vec", vec<Texel>()}});
+                           blend = R"(
+// the same by a blend, whose numbers are whole codes and their fractions
+float gnomon_shadow_of_blend(@vec whole, @vec fraction, float z) {
+@body}
+)";
+    return filled(wide ? blend : single, {{"body", body.text()}, {"vec", vec<Texel>()}});
 }
 
 /// uvec2 gnomon_read(sampler2D map, ivec2 at), or vec2 of floats: a texel in codes, as `linear` has them; clear off the map.
@@ -106,7 +124,7 @@ float gnomon_shadow_at(sampler2D map, vec2 position, float z) {
     sum = sum + @weight(right.x * left.y) * gnomon_read(map, at + ivec2(1, 0));
     sum = sum + @weight(left.x * right.y) * gnomon_read(map, at + ivec2(0, 1));
     sum = sum + @weight(right.x * right.y) * gnomon_read(map, at + ivec2(1, 1));
-    return gnomon_shadow(@vec(sum) / 65536.0, z);
+    return @decision;
 }
 )";
 
@@ -118,15 +136,23 @@ float gnomon_shadow_at(sampler2D map, vec2 position, float z) {
 ///     float gnomon_shadow_at(sampler2D map, vec2 position, float z)    at a position in texels, as shadow(sample(map, x, y), z)
 ///
 /// The map's texture needs no filter and no border; it is read with texelFetch. Whether there is shadow is decided as by the scalar
-/// functions, in every bit: for texels read one by one, and for 8-bit pairs blended, of up to two roundings. Other blends are
-/// computed in single precision: 16-bit ones and ratios decide as if z - 1 were off by 2^-22 of itself, half and float ones by 2^-20.
-/// The intensity is a division and, past a far bound, a fade in single precision.
+/// functions, in every bit: for texels read one by one, and for whole codes blended, exactly. (The scalar decision of blended 16-bit codes
+/// and ratios is one of doubles, and rounds 57 bits to 53; of bytes up to two roundings are exact.) Blends of halves and floats are sums in
+/// single precision, and decide as if z were off by 2^-20 (1 - z) + 2^-23. The intensity is a division and, past a far bound, a fade in
+/// single precision. Subnormal floats count as the driver has them, mostly as zero.
 template <texel_format Texel> [[nodiscard]] std::string receive_text(const shader_rule<Texel>& by) {
     detail::check_texel<Texel>();
     constexpr bool whole = Texel::channel_type::whole_codes;
-    return "// gnomon: receivers behind casters of " + detail::format_name<Texel>() + "\n" + std::string(exceeds_text) +
-           by.declarations + detail::decide_text<Texel>(by) + detail::read_text<Texel>() +
-           detail::filled(detail::sample_text, {{"read", detail::vec<Texel>(whole ? "u" : "")},
+    constexpr bool wide = detail::wide_blends<Texel>;
+    const char* const decision = wide ? "gnomon_shadow_of_blend(@vec(sum >> 16), @vec(sum & 0xFFFFu) / 65536.0, z)"
+                                      : "gnomon_shadow(@vec(sum) / 65536.0, z)";
+    std::string text = "// gnomon: receivers behind casters of " + detail::format_name<Texel>() + "\n" + std::string(exceeds_text);
+    if (wide) text += "\n" + std::string(exceeds_blend_text);
+    text += by.declarations + detail::decide_text<Texel>(by);
+    if (wide) text += detail::decide_text<Texel>(by, true);
+    return text + detail::read_text<Texel>() +
+           detail::filled(detail::sample_text, {{"decision", decision},
+                                                {"read", detail::vec<Texel>(whole ? "u" : "")},
                                                 {"precise", whole ? "" : "precise "},
                                                 {"weight", whole ? "" : "float"},
                                                 {"vec", detail::vec<Texel>()}});

@@ -17,6 +17,7 @@
 
 #include <concepts>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,8 @@ namespace gnomon::inline GNOMON_BUILD {
 /// nothing and is lit everywhere. Move-only.
 ///
 /// Rectangles are collected, and drawn by as few calls as order allows. shadow, receive and soft read the filtered map back, once for
-/// each filter, which waits for the GPU: for tools and tests; an engine's shader reads soft_texture().
+/// each filter, which waits for the GPU: for tools and tests; an engine's shader reads soft_texture(). Once one of them was called, any
+/// number of threads may read until the next filter.
 template <texel_format Texel, kernel Kernel, gl::state_policy Policy> class soft_shadow_map<Texel, Kernel, gl::backend_of<Policy>> {
   public:
     using backend_type = gl::backend_of<Policy>;
@@ -120,6 +122,9 @@ template <texel_format Texel, kernel Kernel, gl::state_policy Policy> class soft
         filtered_ = now;
     }
 
+    /// The same: there is nothing for an executor to do.
+    template <executor On> void filter(On&&) noexcept { filter(); }
+
     [[nodiscard]] float shadow(int x, int y, float z) const noexcept {
         return whole(size()).contains(x, y) ? gnomon::shadow(soft()(x, y), z, decision) : 0.0f;
     }
@@ -141,9 +146,19 @@ template <texel_format Texel, kernel Kernel, gl::state_policy Policy> class soft
         for (int i = 0; i < intensity.size(); ++i) intensity[i] = 0.0f;
     }
 
+    template <typename Z, typename Intensity, typename On>
+    void receive(image_view<Z> z, image_view<Intensity> intensity, On&& on) const {
+        gnomon::receive(scalar{}, soft(), z, intensity, decision, on);
+    }
+
     [[nodiscard]] bool reaches(texel_rect footprint, depth_interval depth = {}) const noexcept {
         return casters_reach(tiles_, footprint, depth, decision.caster.towards);
     }
+
+    /// What an engine's fragment shaders call, after a glsl_header: gnomon_caster and gnomon_bound; and gnomon_shadow, which decides as
+    /// `decision` does now.
+    [[nodiscard]] static std::string caster_text() { return gl::caster_text<Texel>(); }
+    [[nodiscard]] std::string receiver_text() const { return gl::receive_text<Texel>(decision); }
 
     /// @name Names of GL; 0 where there is a problem, or no texel.
     /// @{
@@ -157,10 +172,11 @@ template <texel_format Texel, kernel Kernel, gl::state_policy Policy> class soft
     [[nodiscard]] const gl::map_targets& targets() const noexcept { return textures_.targets(); }
     /// @}
 
-    /// The context is lost: calls nothing of GL, now or when the map goes. Make another map, with another backend.
+    /// The context is lost: calls nothing of GL, now or when the map goes. Make another map, with another
+    /// backend. What maps of the same backend share is forgotten with it; each of them has to be told.
     void forget() {
         textures_.forget();
-        if (passes_) passes_->forget();
+        run_.forget();
         passes_.reset();
         problem_ = {"gnomon: the map's context was lost"};
     }

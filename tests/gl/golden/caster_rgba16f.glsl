@@ -36,24 +36,27 @@ float gnomon_complement(float z) {
 
 layout(location = 0) out vec4 gnomon_texel;
 
-// what is stored nearer to the light is more, and anything is more than the empty buffer
-void gnomon_order(float complement) { gl_FragDepth = max(complement, 2.98023224e-8); }
+// what is stored nearer to the light is more, of equals the more opaque; anything is more than the empty buffer
+uint gnomon_rank(float v) { return v > 0.0 ? (floatBitsToUint(v) >> 13) - 105471u : 0u; } // of halves in [0, 1]
+void gnomon_order(float complement, float contribution) {
+    gl_FragDepth = uintBitsToFloat(0x800000u + gnomon_rank(complement) * 24578u + gnomon_rank(contribution));
+}
 
 void gnomon_caster(float s) {
     float complement = gnomon_complement(s);
-    gnomon_order(complement);
+    gnomon_order(complement, 1.0);
     gnomon_texel = vec4(complement, 1.0, 0.0, 1.0);
 }
 
 void gnomon_caster(float s, float opacity) {
-    float complement = gnomon_complement(s);
-    gnomon_order(complement);
-    gnomon_texel = vec4(complement, 1.0, 0.0, gnomon_code(opacity));
+    float complement = gnomon_complement(s), contribution = gnomon_code(opacity);
+    gnomon_order(complement, contribution);
+    gnomon_texel = vec4(complement, 1.0, 0.0, contribution);
 }
 
 void gnomon_bound(float z) {
     float complement = gnomon_complement(z);
-    gnomon_order(complement);
+    gnomon_order(complement, 0.0);
     gnomon_texel = vec4(0.0, 0.0, complement, 0.0);
 }
 

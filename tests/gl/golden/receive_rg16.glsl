@@ -1,5 +1,5 @@
 // gnomon: receivers behind casters of unorm16 (e, m)
-// a * b > c, exactly: a product of floats has 48 bits, two limbs of 24
+// a * b > c, exactly, which takes 48 bits
 bool gnomon_exceeds(float a, float b, float c) {
     uint x = floatBitsToUint(a), y = floatBitsToUint(b), z = floatBitsToUint(c);
     bool below = ((x ^ y) >> 31) != 0u, c_below = (z >> 31) != 0u; // zero, so the product and c
@@ -13,8 +13,8 @@ bool gnomon_exceeds(float a, float b, float c) {
     if (z == 0u) return !below;
     if (z == infinity || below != c_below) return c_below;
 
-    // The significands, and a * b / 2^24 against c in units of one last place.
-    uint e = max(x >> 23, 1u) + max(y >> 23, 1u), f = max(z >> 23, 1u) + 174u;
+    // The significands; their product, and c moved to the left until the last places are of one size, in two limbs of 24 bits.
+    uint e = max(x >> 23, 1u) + max(y >> 23, 1u), f = max(z >> 23, 1u) + 150u;
     x = (x & 0x7FFFFFu) | (x >> 23 != 0u ? 0x800000u : 0u);
     y = (y & 0x7FFFFFu) | (y >> 23 != 0u ? 0x800000u : 0u);
     z = (z & 0x7FFFFFu) | (z >> 23 != 0u ? 0x800000u : 0u);
@@ -22,22 +22,62 @@ bool gnomon_exceeds(float a, float b, float c) {
     uint low = (x & 0xFFFu) * (y & 0xFFFu) + ((cross & 0xFFFu) << 12);
     uint high = (x >> 12) * (y >> 12) + (cross >> 12) + (low >> 24);
     low &= 0xFFFFFFu;
-    if (f <= e) return !below; // c is less than the last place of any product
-    uint shift = f - e;        // of c, to the left
-    if (shift >= 72u) return below;
-    uint c_2 = z >> (24u - shift % 24u), c_1 = (z << (shift % 24u)) & 0xFFFFFFu, c_0 = 0u; // three limbs
-    if (shift < 24u) {
-        c_0 = c_1;
-        c_1 = c_2;
-        c_2 = 0u;
-    } else if (shift >= 48u) {
-        if (c_2 != 0u) return below;
-        c_2 = c_1;
-        c_1 = 0u;
+    if (f < e) return !below; // all of c is less than the product
+    uint shift = f - e;
+    if (shift >= 48u) return below;
+    uint c_high = z >> (24u - shift % 24u), c_low = (z << (shift % 24u)) & 0xFFFFFFu;
+    if (shift >= 24u) {
+        if (c_high != 0u) return below;
+        c_high = c_low;
+        c_low = 0u;
     }
-    if (high != c_2) return (high > c_2) != below;
-    if (low != c_1) return (low > c_1) != below;
-    return below && c_0 != 0u;
+    if (high != c_high) return (high > c_high) != below;
+    return low != c_low && (low > c_low) != below;
+}
+
+// the size of v.x + v.y, in units of 2^-16: its whole part and the rest
+uvec2 gnomon_units(vec2 v) {
+    if (v.x + v.y < 0.0) v = -v;
+    float rest = v.x - floor(v.x) + v.y;
+    return uvec2(uint(floor(v.x) + floor(rest)), uint((rest - floor(rest)) * 65536.0));
+}
+
+// n + v * 2^shift, the high word first
+uvec2 gnomon_add_shifted(uvec2 n, uint v, int shift) {
+    uint low = n.y + (v << shift);
+    return uvec2(n.x + (v >> (32 - shift)) + (low < n.y ? 1u : 0u), low);
+}
+
+// n * 2^shift as three words, the highest first
+uvec3 gnomon_shifted(uvec2 n, int shift) {
+    int bits = shift & 31;
+    uvec3 words = uvec3(0u, n.x, n.y);
+    if (bits != 0) words = uvec3(n.x >> (32 - bits), n.x << bits | n.y >> (32 - bits), n.y << bits);
+    return shift < 32 ? words : uvec3(words.y, words.z, 0u);
+}
+
+// a * b > c, exactly; a and c are sums of a number in halves and one in parts of 2^16
+bool gnomon_exceeds(vec2 a, float b, vec2 c) {
+    uint bits = floatBitsToUint(b), y = bits & 0x7FFFFFFFu;
+    bool below = (a.x + a.y < 0.0) != (y != bits), c_below = c.x + c.y < 0.0; // zero, so the product and c
+    uvec2 x = gnomon_units(a), z = gnomon_units(c);
+    bool nothing = (x.x | x.y) == 0u;
+    if (y > 0x7F800000u || (nothing && y == 0x7F800000u)) return false; // not a number
+    if (nothing || y == 0u || below != c_below) return c_below;
+
+    // Beyond 2^35 and before 2^-35 all b are alike. The product of units and the significand, and c, with one last place.
+    y = max(min(y, 0x51000000u), 0x2E000000u);
+    int shift = 150 - int(y >> 23);
+    y = (y & 0x7FFFFFu) | 0x800000u;
+    uvec2 product = uvec2(0u, x.y * (y & 0xFFFu));
+    product = gnomon_add_shifted(product, x.y * (y >> 12), 12);
+    product = gnomon_add_shifted(product, x.x * (y & 0xFFFu), 16);
+    product = gnomon_add_shifted(product, x.x * (y >> 12), 28);
+    uvec3 left = gnomon_shifted(product, max(-shift, 0));
+    uvec3 right = gnomon_shifted(uvec2(z.x >> 16, z.x << 16 | z.y), max(shift, 0));
+    if (left.x != right.x) return (left.x > right.x) != below;
+    if (left.y != right.y) return (left.y > right.y) != below;
+    return below ? left.z < right.z : left.z > right.z;
 }
 
 // intensity of the shadow on a receiver at depth z, by the numbers of a filtered texel in codes
@@ -48,6 +88,19 @@ float gnomon_shadow(vec2 texel, float z) {
     precise float nearer_z = z - 7.718918e-06;
     if (!(nearer_z < 0.5 ? gnomon_exceeds(m, nearer_z, m - e) : gnomon_exceeds(-m, 1.0 - nearer_z, -e))) return 0.0;
     precise float darkness = texel.y / 65535.0;
+    return darkness > 0.0 ? (darkness < 1.0 ? darkness : 1.0) : 0.0;
+}
+
+// the same by a blend, whose numbers are whole codes and their fractions
+float gnomon_shadow_of_blend(vec2 whole, vec2 fraction, float z) {
+    precise vec2 code_x = vec2(whole.x, fraction.x);
+    precise vec2 code_y = vec2(whole.y, fraction.y);
+    if (!(code_y.x + code_y.y > 0.0 && z > 0.0)) return 0.0;
+    precise vec2 e = code_x - vec2(0.5, 0.0);
+    precise vec2 m = code_y + vec2(0.5, 0.0);
+    precise float nearer_z = z - 7.718918e-06;
+    if (!(nearer_z < 0.5 ? gnomon_exceeds(m, nearer_z, m - e) : gnomon_exceeds(-m, 1.0 - nearer_z, -e))) return 0.0;
+    precise float darkness = (code_y.x + code_y.y) / 65535.0;
     return darkness > 0.0 ? (darkness < 1.0 ? darkness : 1.0) : 0.0;
 }
 
@@ -74,7 +127,7 @@ float gnomon_shadow_at(sampler2D map, vec2 position, float z) {
     sum = sum + (right.x * left.y) * gnomon_read(map, at + ivec2(1, 0));
     sum = sum + (left.x * right.y) * gnomon_read(map, at + ivec2(0, 1));
     sum = sum + (right.x * right.y) * gnomon_read(map, at + ivec2(1, 1));
-    return gnomon_shadow(vec2(sum) / 65536.0, z);
+    return gnomon_shadow_of_blend(vec2(sum >> 16), vec2(sum & 0xFFFFu) / 65536.0, z);
 }
 
 uniform sampler2D gnomon_map;

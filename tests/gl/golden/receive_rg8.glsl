@@ -1,5 +1,5 @@
 // gnomon: receivers behind casters of unorm8 (e, m)
-// a * b > c, exactly: a product of floats has 48 bits, two limbs of 24
+// a * b > c, exactly, which takes 48 bits
 bool gnomon_exceeds(float a, float b, float c) {
     uint x = floatBitsToUint(a), y = floatBitsToUint(b), z = floatBitsToUint(c);
     bool below = ((x ^ y) >> 31) != 0u, c_below = (z >> 31) != 0u; // zero, so the product and c
@@ -13,8 +13,8 @@ bool gnomon_exceeds(float a, float b, float c) {
     if (z == 0u) return !below;
     if (z == infinity || below != c_below) return c_below;
 
-    // The significands, and a * b / 2^24 against c in units of one last place.
-    uint e = max(x >> 23, 1u) + max(y >> 23, 1u), f = max(z >> 23, 1u) + 174u;
+    // The significands; their product, and c moved to the left until the last places are of one size, in two limbs of 24 bits.
+    uint e = max(x >> 23, 1u) + max(y >> 23, 1u), f = max(z >> 23, 1u) + 150u;
     x = (x & 0x7FFFFFu) | (x >> 23 != 0u ? 0x800000u : 0u);
     y = (y & 0x7FFFFFu) | (y >> 23 != 0u ? 0x800000u : 0u);
     z = (z & 0x7FFFFFu) | (z >> 23 != 0u ? 0x800000u : 0u);
@@ -22,22 +22,17 @@ bool gnomon_exceeds(float a, float b, float c) {
     uint low = (x & 0xFFFu) * (y & 0xFFFu) + ((cross & 0xFFFu) << 12);
     uint high = (x >> 12) * (y >> 12) + (cross >> 12) + (low >> 24);
     low &= 0xFFFFFFu;
-    if (f <= e) return !below; // c is less than the last place of any product
-    uint shift = f - e;        // of c, to the left
-    if (shift >= 72u) return below;
-    uint c_2 = z >> (24u - shift % 24u), c_1 = (z << (shift % 24u)) & 0xFFFFFFu, c_0 = 0u; // three limbs
-    if (shift < 24u) {
-        c_0 = c_1;
-        c_1 = c_2;
-        c_2 = 0u;
-    } else if (shift >= 48u) {
-        if (c_2 != 0u) return below;
-        c_2 = c_1;
-        c_1 = 0u;
+    if (f < e) return !below; // all of c is less than the product
+    uint shift = f - e;
+    if (shift >= 48u) return below;
+    uint c_high = z >> (24u - shift % 24u), c_low = (z << (shift % 24u)) & 0xFFFFFFu;
+    if (shift >= 24u) {
+        if (c_high != 0u) return below;
+        c_high = c_low;
+        c_low = 0u;
     }
-    if (high != c_2) return (high > c_2) != below;
-    if (low != c_1) return (low > c_1) != below;
-    return below && c_0 != 0u;
+    if (high != c_high) return (high > c_high) != below;
+    return low != c_low && (low > c_low) != below;
 }
 
 // intensity of the shadow on a receiver at depth z, by the numbers of a filtered texel in codes

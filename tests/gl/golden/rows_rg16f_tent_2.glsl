@@ -26,8 +26,8 @@ precise vec2 gnomon_sum = vec2(0);
 void gnomon_add(float weight, int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
     if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
-    uvec2 sums = uvec2(texelFetch(gnomon_sums, at, 0));
-    precise vec2 product = weight * uintBitsToFloat(sums);
+    vec2 sums = uintBitsToFloat(uvec2(texelFetch(gnomon_sums, at, 0)));
+    precise vec2 product = weight * sums;
     gnomon_sum = gnomon_sum + product;
 }
 

@@ -7,8 +7,8 @@ precise vec4 gnomon_sum = vec4(0);
 void gnomon_add(float weight, int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
     if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
-    uvec4 sums = uvec4(texelFetch(gnomon_sums, at, 0));
-    precise vec4 product = weight * uintBitsToFloat(sums);
+    vec4 sums = uintBitsToFloat(uvec4(texelFetch(gnomon_sums, at, 0)));
+    precise vec4 product = weight * sums;
     gnomon_sum = gnomon_sum + product;
 }
 

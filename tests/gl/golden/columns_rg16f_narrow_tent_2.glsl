@@ -1,0 +1,41 @@
+// gnomon: columns of half16 (e, m) by 5 taps of together 9
+// v / 2^bits to nearest, ties to even
+uint gnomon_nearest_even(uint v, int bits) {
+    uint kept = v >> bits, rest = v - (kept << bits), tie = 1u << (bits - 1);
+    return kept + (rest > tie || (rest == tie && (kept & 1u) != 0u) ? 1u : 0u);
+}
+
+// the half nearest to v, ties to even, which a driver then stores as it is
+float gnomon_half(float v) {
+    uint bits = floatBitsToUint(v), size = bits & 0x7FFFFFFFu, sign = bits ^ size;
+    if (size >= 0x7F800000u) return v;                                           // infinite, or not a number
+    if (size < 0x33000000u) return uintBitsToFloat(sign);                        // less than half of the least half
+    if (size < 0x38800000u) {                                                    // a multiple of 2^-24
+        uint units = gnomon_nearest_even((size & 0x7FFFFFu) | 0x800000u, 126 - int(size >> 23));
+        return (sign != 0u ? -1.0 : 1.0) * float(units) / 16777216.0;
+    }
+    size = gnomon_nearest_even(size, 13) << 13;
+    return uintBitsToFloat(sign | (size >= 0x47800000u ? 0x7F800000u : size)); // beyond the last half is infinity
+}
+
+uniform sampler2D gnomon_texels;
+layout(location = 0) out vec2 gnomon_sums;
+
+precise vec2 gnomon_sum = vec2(0);
+
+void gnomon_add(float weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
+    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return;
+    vec2 texel = vec2(texelFetch(gnomon_texels, at, 0));
+    precise vec2 product = weight * texel;
+    gnomon_sum = gnomon_sum + product;
+}
+
+void main() {
+    gnomon_add(0.0625, -2);
+    gnomon_add(0.125, -1);
+    gnomon_add(0.1875, 0);
+    gnomon_add(0.125, 1);
+    gnomon_add(0.0625, 2);
+    gnomon_sums = vec2(gnomon_half(gnomon_sum.x), gnomon_half(gnomon_sum.y));
+}

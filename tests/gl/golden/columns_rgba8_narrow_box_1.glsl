@@ -1,0 +1,19 @@
+// gnomon: columns of unorm8 (e, m, far bound, contribution) by 3 taps of together 3
+uniform sampler2D gnomon_texels;
+layout(location = 0) out vec4 gnomon_sums;
+
+uvec4 gnomon_sum = uvec4(0);
+
+void gnomon_add(uint weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
+    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return;
+    vec4 texel = vec4(texelFetch(gnomon_texels, at, 0));
+    gnomon_sum += weight * uvec4(texel * 255.0 + 0.5);
+}
+
+void main() {
+    gnomon_add(1u, -1);
+    gnomon_add(1u, 0);
+    gnomon_add(1u, 1);
+    gnomon_sums = vec4((gnomon_sum + 1u) / 3u) / 255.0;
+}

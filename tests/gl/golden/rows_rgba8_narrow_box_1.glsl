@@ -1,0 +1,20 @@
+// gnomon: rows of unorm8 (e, m, far bound, contribution) by 3 taps of together 3
+uniform sampler2D gnomon_sums;
+layout(location = 0) out vec4 gnomon_texel;
+
+uvec4 gnomon_sum = uvec4(0);
+
+void gnomon_add(uint weight, int away) {
+    ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
+    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
+    uvec4 sums = uvec4(vec4(texelFetch(gnomon_sums, at, 0)) * 255.0 + 0.5);
+    gnomon_sum += weight * sums;
+}
+
+void main() {
+    gnomon_add(1u, -1);
+    gnomon_add(1u, 0);
+    gnomon_add(1u, 1);
+    uvec4 codes = (gnomon_sum + 1u) / 3u;
+    gnomon_texel = vec4(codes) / 255.0;
+}

@@ -1,0 +1,165 @@
+#include <gnomon/gl/object.hpp>
+#include <gnomon/gl/program.hpp>
+
+#include "../support/fake_gl.hpp"
+
+#include <doctest/doctest.h>
+
+#include <type_traits>
+#include <utility>
+
+namespace gl = gnomon::gl;
+
+namespace {
+
+/// A fake with a context of it.
+struct bench {
+    explicit bench(const char* version) : fake(version), context(*gl::context::of(fake.table)) {}
+    test::fake_gl fake;
+    gl::context context;
+};
+
+} // namespace
+
+TEST_CASE_TEMPLATE("an owner deletes what it made, once, however it is moved", Owner, gl::texture, gl::sampler, gl::framebuffer,
+                   gl::buffer, gl::vertex_array, gl::program) {
+    static_assert(!std::is_copy_constructible_v<Owner> && !std::is_copy_assignable_v<Owner>);
+    static_assert(std::is_nothrow_move_constructible_v<Owner> && std::is_nothrow_move_assignable_v<Owner>);
+    bench b("3.3");
+    {
+        Owner first(b.context);
+        const unsigned name = first.name();
+        CHECK(name != 0);
+        CHECK(b.fake.alive() == 1);
+        Owner second(std::move(first));
+        CHECK(second.name() == name);
+        CHECK_FALSE(first); // owns nothing
+        Owner third(b.context);
+        CHECK(b.fake.alive() == 2);
+        third = std::move(second); // the third's own goes now
+        CHECK(b.fake.alive() == 1);
+        CHECK(third.name() == name);
+        Owner& itself = third;
+        third = std::move(itself);
+        CHECK(third.name() == name);
+        third.reset();
+        third.reset();
+        CHECK(b.fake.alive() == 0);
+        third = Owner(b.context);
+        CHECK(b.fake.alive() == 1);
+    }
+    CHECK(b.fake.alive() == 0);
+    CHECK(b.fake.wrong == "");
+}
+
+TEST_CASE("an owner that forgets calls nothing, so that a lost context's names are never deleted in the next") {
+    bench b("4.5");
+    {
+        gl::texture kept(b.context);
+        gl::program also(b.context);
+        b.fake.lost = true;
+        b.fake.calls.clear();
+        CHECK(kept.forget() == 1);
+        CHECK(also.forget() != 0);
+        CHECK_FALSE(kept);
+    }
+    CHECK(b.fake.calls.empty());
+}
+
+TEST_CASE("everything made to draw with is gone when its owners are") {
+    for (const char* version : {"3.3", "4.5", "OpenGL ES 3.0"}) {
+        bench b(version);
+        {
+            const auto color = gl::make_texture(b.context, gl::rg8_format, {64, 32});
+            const auto depth = gl::make_texture(b.context, gl::depth_format, {64, 32});
+            REQUIRE(color);
+            REQUIRE(depth);
+            const auto frame = gl::make_framebuffer(b.context, {color->name()}, depth->name());
+            const auto corners = gl::make_buffer(b.context, 64, nullptr, gl::enums::stream_draw);
+            const auto shader = gl::make_program(b.context, "vertex", "fragment", {{0, "corner"}});
+            CHECK((frame && corners && shader));
+            CHECK(b.fake.objects["shader"].empty()); // a linked program needs them no more
+            CHECK(b.fake.alive() == 5);
+        }
+        CHECK(b.fake.alive() == 0);
+        CHECK(b.fake.wrong == "");
+    }
+}
+
+TEST_CASE("a size over the limit is refused before GL is asked, and an empty one is a single texel") {
+    bench b("3.3");
+    b.fake.calls.clear();
+    CHECK(gl::make_texture(b.context, gl::rg16_format, {4097, 2}).error().sentence ==
+          "gnomon: a texture of 4097 x 2 texels is wanted, this context allows 4096 on a side");
+    CHECK_FALSE(gl::make_texture(b.context, gl::rg16_format, {2, 4097}));
+    CHECK(b.fake.calls.empty());
+    CHECK(gl::make_texture(b.context, gl::rg16_format, {4096, 4096}));
+    CHECK(gl::make_texture(b.context, gl::rg16_format, {0, -5}));
+}
+
+TEST_CASE("a failed allocation is reported, leaks nothing, and an error left by the host is not taken for one") {
+    bench b("3.3");
+    b.fake.errors = {gl::enums::invalid_enum}; // the host's
+    CHECK(gl::make_texture(b.context, gl::rg8_format, {8, 8}));
+    b.fake.errors = {gl::enums::invalid_value};
+    CHECK(gl::make_buffer(b.context, 8, nullptr, gl::enums::static_draw));
+    b.fake.errors = {gl::enums::invalid_value};
+    CHECK(gl::make_framebuffer(b.context, {1u}));
+
+    b.fake.allocations_until_failure = 0;
+    CHECK(gl::make_texture(b.context, gl::rg16f_format, {8, 9}).error().sentence ==
+          "gnomon: a texture of 8 x 9 RG16F: GL_OUT_OF_MEMORY");
+    CHECK(gl::make_buffer(b.context, 77, nullptr, gl::enums::static_draw).error().sentence ==
+          "gnomon: a buffer of 77 bytes: GL_OUT_OF_MEMORY");
+    CHECK(b.fake.alive() == 0);
+    CHECK(b.fake.wrong == "");
+}
+
+TEST_CASE("an incomplete framebuffer is reported and leaks nothing") {
+    bench b("OpenGL ES 3.0");
+    const gl::texture color(b.context);
+    b.fake.framebuffer_status = 0x8CDD; // unsupported
+    CHECK(gl::make_framebuffer(b.context, {color.name()}).error().sentence ==
+          "gnomon: a framebuffer is incomplete, status 36061; these formats cannot be drawn into here");
+    CHECK(b.fake.objects["framebuffer"].empty());
+}
+
+TEST_CASE("a rejected shader brings the driver's log, and leaks nothing") {
+    bench b("3.3");
+    b.fake.shader_log = "0:3(1): syntax error, unexpected end of file\n\n";
+    CHECK(gl::make_program(b.context, "v", "f").error().sentence ==
+          "gnomon: the driver rejects the vertex shader: 0:3(1): syntax error, unexpected end of file");
+    b.fake.shader_log = "\n";
+    CHECK(gl::make_program(b.context, "v", "f").error().sentence == "gnomon: the driver rejects the vertex shader: ");
+    b.fake.shader_log.clear();
+    b.fake.link_log = "no main";
+    CHECK(gl::make_program(b.context, "v", "f").error().sentence == "gnomon: the driver does not link the program: no main");
+    CHECK(b.fake.alive() == 0);
+    CHECK(b.fake.wrong == "");
+}
+
+TEST_CASE("of a lost context nothing is had, and each maker says so") {
+    bench b("4.5");
+    b.fake.lost = true;
+    const auto told = [](const auto& made) { return made.error().sentence.find("the context is lost") != std::string::npos; };
+    CHECK(told(gl::make_texture(b.context, gl::rg8_format, {8, 8})));
+    CHECK(told(gl::make_framebuffer(b.context, {1u})));
+    CHECK(told(gl::make_buffer(b.context, 8, nullptr, gl::enums::static_draw)));
+    CHECK(told(gl::make_program(b.context, "v", "f")));
+    CHECK(b.fake.alive() == 0);
+}
+
+TEST_CASE("objects of two contexts go to their own") {
+    bench one("3.3");
+    gl::texture first(one.context);
+    bench two("OpenGL ES 3.0");
+    const gl::texture second(two.context);
+    CHECK(one.fake.objects["texture"].size() == 1);
+    CHECK(two.fake.objects["texture"].size() == 1);
+    one.fake.use();
+    first.reset();
+    CHECK(one.fake.alive() == 0);
+    CHECK(two.fake.alive() == 1);
+    two.fake.use();
+    CHECK(one.fake.wrong + two.fake.wrong == "");
+}

@@ -1,0 +1,178 @@
+#include <gnomon/gl/state.hpp>
+
+#include "../support/fake_gl.hpp"
+#include "../support/gl_state.hpp"
+
+#include <doctest/doctest.h>
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace gl = gnomon::gl;
+namespace enums = gnomon::gl::enums;
+
+namespace {
+
+constexpr int units = 4;
+
+struct version {
+    const char* text;
+    std::vector<std::string> extensions;
+};
+const version versions[] = {
+    {"3.3", {}},           {"3.3", {"GL_ARB_clip_control"}},
+    {"4.1", {}},           {"4.5", {}},
+    {"OpenGL ES 3.0", {}}, {"OpenGL ES 3.0", {"GL_EXT_clip_control", "GL_EXT_depth_clamp", "GL_EXT_clip_cull_distance"}},
+    {"OpenGL ES 3.1", {}}, {"OpenGL ES 3.2", {}}};
+
+/// Changes all that a pass may: what a guard sets is set by it already.
+void pass(const gl::context& c) {
+    const gl::functions& f = *c.gl;
+    const gl::framebuffer frame(c);
+    const gl::vertex_array corners(c);
+    const gl::buffer rectangles(c);
+    const gl::program shader(c);
+    const gl::texture map(c);
+    f.BindFramebuffer(enums::framebuffer, frame.name());
+    f.BindVertexArray(corners.name());
+    f.BindBuffer(enums::array_buffer, rectangles.name());
+    f.UseProgram(shader.name());
+    f.ActiveTexture(enums::texture0 + units - 1);
+    f.BindTexture(enums::texture_2d, map.name());
+    f.Viewport(0, 0, 17, 19);
+    f.Scissor(1, 2, 3, 4);
+    for (const unsigned what : {enums::scissor_test, enums::blend, enums::depth_test, enums::cull_face}) f.Enable(what);
+    f.ColorMask(0, 0, 1, 0);
+    f.BlendEquation(enums::blend_max);
+    f.BlendFunc(enums::one, enums::one);
+    f.DepthFunc(enums::lequal);
+    f.DepthMask(0);
+    f.PixelStorei(enums::unpack_row_length, 3);
+    f.UseProgram(0);
+}
+
+/// What a guard leaves to the pass, which sets it to its own.
+const std::set<unsigned> set_by_pass{enums::draw_framebuffer_binding,
+                                     enums::read_framebuffer_binding,
+                                     enums::vertex_array_binding,
+                                     enums::array_buffer_binding,
+                                     enums::current_program,
+                                     enums::viewport,
+                                     enums::scissor_box,
+                                     enums::texture_binding_2d};
+
+/// The fake's whole memory, but for objects that came and went.
+std::string differing(const test::fake_gl& fake, const std::map<test::fake_gl::key, test::fake_gl::values>& before) {
+    std::string text;
+    for (const auto& [where, now] : fake.state)
+        if (const auto then = before.find(where); now != (then == before.end() ? test::fake_gl::values{} : then->second))
+            text += std::to_string(where.first) + '[' + std::to_string(where.second) + "]; ";
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("a restoring guard leaves all state as a hostile host had it") {
+    for (const version& v : versions)
+        for (int seed = 0; seed < 20; ++seed) {
+            CAPTURE(v.text);
+            CAPTURE(seed);
+            test::fake_gl fake(v.text, v.extensions);
+            const gl::context c = *gl::context::of(fake.table);
+            {
+                test::dice roll(static_cast<std::uint64_t>(seed));
+                const gl::program engine(c);
+                const test::hostile_host host(c, roll, units, engine.name());
+                const auto before = fake.state;
+                const auto seen = test::state_of(c, units);
+                {
+                    const gl::state_guard<gl::state_policy::restore> guard(c, units);
+                    pass(c);
+                    CHECK(differing(fake, before) != ""); // so there was something to restore
+                }
+                CHECK(differing(fake, before) == "");
+                CHECK(test::differing_state(seen, test::state_of(c, units)) == "");
+            }
+            CHECK(fake.alive() == 0);
+            CHECK(fake.wrong == "");
+        }
+}
+
+TEST_CASE_TEMPLATE("under either policy a pass starts from one state, whatever the host left", Guard,
+                   gl::state_guard<gl::state_policy::dirty>, gl::state_guard<gl::state_policy::restore>) {
+    for (const version& v : versions) {
+        CAPTURE(v.text);
+        const auto forced = [&](bool hostile) {
+            test::fake_gl fake(v.text, v.extensions);
+            const gl::context c = *gl::context::of(fake.table);
+            test::dice roll(7);
+            std::optional<test::hostile_host> host;
+            if (hostile) host.emplace(c, roll, units, 0u);
+            const Guard guard(c, units);
+            auto state = fake.state;
+            std::erase_if(
+                state, [](const auto& s) { return s.second == test::fake_gl::values{} || set_by_pass.count(s.first.first) != 0; });
+            CHECK(fake.wrong == "");
+            return state;
+        };
+        const auto kind = forced(false);
+        CHECK(kind.size() > 20);
+        CHECK(forced(true) == kind);
+    }
+}
+
+TEST_CASE("a dirty guard asks nothing of GL, and puts nothing back") {
+    for (const version& v : versions) {
+        test::fake_gl fake(v.text, v.extensions);
+        const gl::context c = *gl::context::of(fake.table);
+        fake.calls.clear();
+        std::map<test::fake_gl::key, test::fake_gl::values> inside;
+        {
+            const gl::state_guard guard(c);
+            inside = fake.state;
+        }
+        CHECK(differing(fake, inside) == "");
+        for (const auto& call : fake.calls)
+            CHECK_MESSAGE((call.first.substr(0, 3) != "Get" && call.first.substr(0, 2) != "Is"), call.first);
+        CHECK(fake.wrong == "");
+    }
+}
+
+TEST_CASE("a restoring guard pauses transform feedback that runs, and leaves alone what is paused or inactive") {
+    for (const char* version : {"4.0", "OpenGL ES 3.0"}) {
+        test::fake_gl fake(version);
+        const gl::context c = *gl::context::of(fake.table);
+        {
+            const gl::state_guard<gl::state_policy::restore> guard(c);
+        }
+        CHECK(fake.calls["PauseTransformFeedback"] == 0);
+        fake.put(enums::transform_feedback_active, 0, 1);
+        {
+            const gl::state_guard<gl::state_policy::restore> guard(c);
+            CHECK(fake.get(enums::transform_feedback_paused)[0] > 0);
+            fake.order.clear();
+        }
+        CHECK(fake.get(enums::transform_feedback_paused)[0] < 1);
+        CHECK(fake.order.back() == "ResumeTransformFeedback"); // its program is in use again
+        fake.put(enums::transform_feedback_paused, 0, 1);
+        {
+            const gl::state_guard<gl::state_policy::restore> guard(c);
+        }
+        CHECK(fake.calls["PauseTransformFeedback"] == 1);
+        CHECK(fake.calls["ResumeTransformFeedback"] == 1);
+        CHECK(fake.wrong == "");
+    }
+}
+
+TEST_CASE("a context with a mode for each face of a polygon has both back") {
+    test::fake_gl fake("3.3 Compatibility Profile");
+    const gl::context c = *gl::context::of(fake.table);
+    c.gl->PolygonMode(enums::front, enums::line);
+    {
+        const gl::state_guard<gl::state_policy::restore> guard(c);
+    }
+    CHECK(fake.get(enums::polygon_mode) == test::fake_gl::values{double{enums::line}, double{enums::fill}});
+}
