@@ -5,7 +5,7 @@
 //     filter/FORMAT/kTAPS/WHAT/1024   both passes of the filter; WHAT is `dense`, the whole map at once; `sparse10`, what the casters in
 //                                     10 % of the tiles reach, in one instanced draw; or `scissor10`, one scissored draw for each
 //     cast/FORMAT/1024                clearing, and casting rectangles on a quarter of the map
-//     mask/FORMAT/1024                the decision for a whole screen, receivers one to one on texels
+//     mask/FORMAT/1024                the decision for a whole screen, receivers one to one on texels, all behind all casters
 //     frame, casters, blur, receive   / TECHNIQUE / 512 or 1024: a frame over the scene of gl/scene.hpp, and its passes one by one. The frame's
 //                                     counters are its errors, see gl/errors.hpp
 // The first argument --pictures FOLDER writes what every technique shows, as FOLDER/TECHNIQUE.pgm, and measures nothing. Needs a libEGL that makes
@@ -111,28 +111,28 @@ template <texel_format Texel> void add_passes(bench& b, const std::string& of) {
     struct masking {
         one_of map;
         stage on;
-        gl::program by;
+        gl::receive_pass<Texel> pass;
         gl::texture depths;
         masking(bench& from)
-            : map(from.c, 25), on(from.c, from.of, side),
-              by(program_of(from.c, screen_vertex_text, gl::receive_text<Texel>() + std::string(gl::receive_texels_main_text),
-                            {"gnomon_map", "gnomon_depths"})) {
-            map.filter(from.c, true, gl::rectangles_by::instances);
+            : map(from.c, 25), on(from.c, from.of, side), pass(must(gl::receive_pass<Texel>::make(from.c, gl::receivers::texels))) {
             const gl::state_guard<> forced(from.c);
             depths = must(gl::make_texture(from.c, r32f_format, whole_map));
             const std::vector<float> far_away(std::size_t{side} * side, 0.9f);
             from.c.gl->TexSubImage2D(enums::texture_2d, 0, 0, 0, side, side, enums::red, enums::type_float, far_away.data());
         }
+        void draw(const gl::context& c) {
+            const gl::state_guard<> forced(c);
+            pass.draw(c, {on.screen(), whole_map}, map.textures.targets().soft, depths.name(), rule{});
+        }
     };
-    const auto mask = b.lazily([&b] { return std::make_unique<masking>(b); });
+    const auto mask = b.lazily([&b] {
+        auto made = std::make_unique<masking>(b);
+        made->draw(b.c);
+        return made;
+    });
     b.add("mask/" + of + "/1024", [&b, mask](benchmark::State& state) {
         masking& one = *mask();
-        b.clock.run(state, [&] {
-            const gl::state_guard<> forced(b.c);
-            bind(b.c, 0, one.map.textures.targets().soft);
-            bind(b.c, 1, one.depths.name());
-            one.on.draw_all(one.on.screen(), one.by);
-        });
+        b.clock.run(state, [&] { one.draw(b.c); });
     });
 }
 
@@ -174,6 +174,7 @@ std::vector<entry> all_techniques() {
     using k9 = gaussian<4>;
     return {gnomon_of<rg8, k9>("rg8.k9.dense", true),
             gnomon_of<rg8, k9>("rg8.k9", false),
+            gnomon_of<rg8, narrow<k9>>("rg8.narrow.k9", false),
             gnomon_of<rg8, binomial<2>>("rg8.k5", false),
             gnomon_of<rg16, k9>("rg16.k9", false),
             gnomon_of<rg16f, k9>("rg16f.k9", false),
@@ -228,6 +229,7 @@ void add_all(bench& b) {
         if (percent != 10) add_filter<rg8, k9>(b, "rg8", "sparse" + share, percent, false, gl::rectangles_by::instances);
         add_filter<rg8, k9>(b, "rg8", "scissor" + share, percent, false, gl::rectangles_by::scissor);
     }
+    add_dense_and_sparse<rg8, narrow<k9>>(b, "rg8.narrow");
     add_dense_and_sparse<rg8, binomial<2>>(b, "rg8");
     add_dense_and_sparse<rg8, gaussian<8>>(b, "rg8");
     add_dense_and_sparse<rg8, box<16>>(b, "rg8");

@@ -129,12 +129,6 @@ inline constexpr gl::format depth24_format{"DEPTH_COMPONENT24",     enums::depth
     return made;
 }
 
-inline void bind(const gl::context& c, unsigned unit, unsigned texture) {
-    c.gl->ActiveTexture(enums::texture0 + unit);
-    c.gl->BindTexture(enums::texture_2d, texture);
-    c.gl->ActiveTexture(enums::texture0);
-}
-
 /// A texture with LINEAR samples; of depths, compared ones.
 [[nodiscard]] inline gl::texture linear_texture(const gl::context& c, const gl::format& as, extent size) {
     gl::texture made = must(gl::make_texture(c, as, size));
@@ -174,6 +168,8 @@ class stage {
     const std::vector<receiver> receivers;
 
     [[nodiscard]] extent size() const { return {side, side}; }
+    /// The texture of the receivers.
+    [[nodiscard]] unsigned points() const { return points_.name(); }
     [[nodiscard]] unsigned screen() const { return into_screen_.name(); }
     [[nodiscard]] unsigned finer_screen() const { return into_finer_.name(); }
 
@@ -190,8 +186,7 @@ class stage {
     }
     /// Intensities of all receivers, by a program whose samplers are the map and the points.
     void receive(unsigned framebuffer, const gl::program& by, unsigned map) const {
-        bind(c_, 0, map);
-        bind(c_, 1, points_.name());
+        gl::bind_textures(c_, {map, points()});
         draw_all(framebuffer, by);
     }
     /// What the finer screen holds.

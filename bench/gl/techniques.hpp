@@ -3,6 +3,7 @@
 
 #include "rig.hpp"
 
+#include <gnomon/gl/receive_pass.hpp>
 #include <gnomon/gl/soft_shadow_map.hpp>
 
 #include <string>
@@ -37,7 +38,7 @@ class technique {
     const stage& on_;
 };
 
-/// gnomon as an engine uses it: the facade, with the scene's triangles drawn by the engine, and the receivers' text.
+/// gnomon as an engine uses it: the facade, with the scene's triangles drawn by the engine, and the library's mask pass.
 template <gnomon::texel_format Texel, gnomon::kernel Kernel> class gnomon_map : public technique {
   public:
     /// `dense` clears and filters the whole map, as if there were no tiles.
@@ -45,9 +46,7 @@ template <gnomon::texel_format Texel, gnomon::kernel Kernel> class gnomon_map : 
         : technique(c, on), of_(of), dense_(dense), map_({.width = on.side, .height = on.side}, gl::backend(c)),
           casters_(program_of(c, mesh_vertex_text,
                               gl::caster_text<Texel>() + "in float bench_depth;\nvoid main() { gnomon_caster(bench_depth); }\n")),
-          receivers_(program_of(c, screen_vertex_text,
-                                gl::receive_text<Texel>(map_.decision) + std::string(gl::receive_points_main_text),
-                                {"gnomon_map", "gnomon_points"})) {
+          receivers_(must(gl::receive_pass<Texel>::make(c, gl::receivers::points))) {
         if (map_.problem()) must(gl::result<int>(map_.problem()));
     }
 
@@ -68,7 +67,7 @@ template <gnomon::texel_format Texel, gnomon::kernel Kernel> class gnomon_map : 
     void filter() override { map_.filter(); }
     void receive(unsigned framebuffer) override {
         const gl::state_guard<> forced(c_);
-        on_.receive(framebuffer, receivers_, map_.soft_texture());
+        receivers_.draw(c_, {framebuffer, on_.size()}, map_.soft_texture(), on_.points(), map_.decision);
     }
     [[nodiscard]] double filtered() const override {
         const gnomon::regions_to_filter<Kernel> regions(map_.tiles().tiles());
@@ -85,7 +84,8 @@ template <gnomon::texel_format Texel, gnomon::kernel Kernel> class gnomon_map : 
     const scene& of_;
     bool dense_;
     gnomon::soft_shadow_map<Texel, Kernel, gl::backend> map_;
-    gl::program casters_, receivers_;
+    gl::program casters_;
+    gl::receive_pass<Texel> receivers_;
 };
 
 /// Percentage closer filtering: depths alone.
@@ -159,9 +159,9 @@ template <gnomon::kernel Kernel> class blurred_map : public technique {
     }
     void filter() override {
         const gl::state_guard<> forced(c_);
-        bind(c_, 0, map_.name());
+        gl::bind_textures(c_, {map_.name()});
         on_.draw_all(into_scratch_.name(), rows_);
-        bind(c_, 0, scratch_.name());
+        gl::bind_textures(c_, {scratch_.name()});
         on_.draw_all(into_soft_.name(), columns_);
     }
     void receive(unsigned framebuffer) override {
