@@ -1,15 +1,15 @@
-// What the passes on GL cost, and beside them, over the same scene in the same context, percentage closer filtering, variance maps and
-// exponential variance maps: time, and how far each is from the exact shadow.
+// What the passes on GL cost, and beside them, over the same scene in the same context, percentage closer filtering, variance maps
+// and exponential variance maps: time, and how far each is from the exact shadow.
 //
 // By the clock on the wall around work and glFinish. Names end in the map's side:
-//     filter/FORMAT/kTAPS/WHAT/1024   both passes of the filter; WHAT is `dense`, the whole map at once; `sparse10`, what the casters in
-//                                     10 % of the tiles reach, in one instanced draw; or `scissor10`, one scissored draw for each
-//     cast/FORMAT/1024                clearing, and casting rectangles on a quarter of the map
-//     mask/FORMAT/1024                the decision for a whole screen, receivers one to one on texels, all behind all casters
-//     frame, casters, blur, receive   / TECHNIQUE / 512 or 1024: a frame over the scene of gl/scene.hpp, and its passes one by one. The frame's
-//                                     counters are its errors, see gl/errors.hpp
-// The first argument --pictures FOLDER writes what every technique shows, as FOLDER/TECHNIQUE.pgm, and measures nothing. Needs a libEGL that makes
-// contexts without a display; without one it says so and measures nothing.
+//     filter/FORMAT/kTAPS/WHAT/1024  both passes of the filter; WHAT is `dense`, the whole map at once; `sparse10`, what casters in
+//                                    10 % of the tiles reach, in one instanced draw; `scissor10`, one scissored draw for each
+//     cast/FORMAT/1024               clearing, and casting rectangles on a quarter of the map
+//     mask/FORMAT/1024               the decision for a whole screen, receivers one to one on texels, all behind all casters
+//     frame, casters, blur and receive, each /TECHNIQUE/512 and /1024: a frame over the scene of gl/scene.hpp, and its passes one
+//                                    by one. A frame's counters are its errors, gl/errors.hpp, and what share of the map it filters
+// `--pictures FOLDER`, alone, writes what every technique shows as FOLDER/TECHNIQUE.pgm and prints errors. GNOMON_TEST_GL=3.3 or
+// =es takes another context than the latest. Without a libEGL that makes contexts without a display it says so, and that is all.
 #include "clusters.hpp"
 #include "gl/errors.hpp"
 #include "gl/techniques.hpp"
@@ -162,18 +162,21 @@ entry technique_of(const std::string& name, bool blurs, Arguments... arguments) 
             [=](const gl::context& c, const stage& on, const scene&) { return std::make_unique<Map>(c, on, arguments...); },
             [](const judge& by, technique& what) { return by.of<Own>(what); }};
 }
-template <texel_format Texel, kernel Kernel> entry gnomon_of(const std::string& name, bool dense) {
+template <typename Own, typename Map, typename... Arguments>
+entry technique_with_scene(const std::string& name, Arguments... arguments) {
     return {name, true,
-            [=](const gl::context& c, const stage& on, const scene& of) {
-                return std::make_unique<gnomon_map<Texel, Kernel>>(c, on, of, dense);
-            },
-            [](const judge& by, technique& what) { return by.of<Kernel>(what); }};
+            [=](const gl::context& c, const stage& on, const scene& of) { return std::make_unique<Map>(c, on, of, arguments...); },
+            [](const judge& by, technique& what) { return by.of<Own>(what); }};
+}
+template <texel_format Texel, kernel Kernel> entry gnomon_of(const std::string& name, bool dense) {
+    return technique_with_scene<Kernel, gnomon_map<Texel, Kernel>>(name, dense);
 }
 
 std::vector<entry> all_techniques() {
     using k9 = gaussian<4>;
     return {gnomon_of<rg8, k9>("rg8.k9.dense", true),
             gnomon_of<rg8, k9>("rg8.k9", false),
+            technique_with_scene<k9, sampled_gnomon_map<k9>>("rg8.k9.sampled"),
             gnomon_of<rg8, narrow<k9>>("rg8.narrow.k9", false),
             gnomon_of<rg8, binomial<2>>("rg8.k5", false),
             gnomon_of<rg16, k9>("rg16.k9", false),

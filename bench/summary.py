@@ -149,7 +149,7 @@ def flags(path):
     return ratios
 
 
-GL_PEERS = ("plain.k9", "pcf2x2", "pcf3x3", "pcf5x5", "vsm", "vsm.casters_only", "evsm4", "evsm4.casters_only")
+GL_PEERS = ("plain.k9", "rg8.k9.sampled", "pcf2x2", "pcf3x3", "pcf5x5", "vsm", "vsm.casters_only", "evsm4", "evsm4.casters_only")
 GL_ERRORS = ("rmse_ground", "rmse_own", "rmse_platform", "leak", "dark")
 
 

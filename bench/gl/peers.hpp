@@ -1,7 +1,7 @@
 // What gnomon is measured beside, in GLSL: written here, plainly, as the authors named at each describe it.
 //
-// Receivers' texts end in `float bench_light(vec2 texel, float z)`: how much light reaches depth z at a position in texels of `map`.
-// Depths grow away from the light, and the map's clear depth is 1.
+// Receivers' texts end in `float bench_light(vec2 texel, float z)`: how much light reaches depth z at a position in texels of
+// `map`. Depths grow away from the light, and the map's clear depth is 1.
 #pragma once
 
 #include <gnomon/filter/kernel.hpp>
@@ -39,14 +39,14 @@ void main() {
 /// @{
 inline constexpr std::string_view pcf_casters_text = "void main() {}\n";
 
-/// What a plain hardware sampler gives (W. Reeves, D. Salesin, R. Cook, Rendering Antialiased Shadows with Depth Maps, 1987, in hardware).
+/// What a comparing sampler gives by itself: W. Reeves, D. Salesin, R. Cook, Rendering Antialiased Shadows with Depth Maps, 1987.
 inline constexpr std::string_view pcf_2x2_text = R"(
 uniform sampler2DShadow map;
 const float bias = 0.001;
 
 float bench_light(vec2 texel, float z) { return texture(map, vec3(texel / vec2(textureSize(map, 0)), z - bias)); }
 )";
-/// I. Castano, Shadow Mapping Summary, Part 1, 2013 (seed 004): four comparing samples for taps of 1, 2, 1. The derivation is his for 5x5.
+/// I. Castano, Shadow Mapping Summary, Part 1, 2013: four comparing samples for taps of 1, 2, 1. The derivation is his for 5x5.
 inline constexpr std::string_view pcf_3x3_text = R"(
 uniform sampler2DShadow map;
 const float bias = 0.001;
@@ -84,8 +84,9 @@ float bench_light(vec2 texel, float z) {
 )";
 /// @}
 
-/// @name Variance shadow maps: W. Donnelly, A. Lauritzen, Variance Shadow Maps, 2006, and A. Lauritzen, GPU Gems 3, chapter 8: two moments
-/// in 32-bit floats, blurred, Chebyshev's bound. No mip levels, and no reduction of bleeding, which trades leaks for hard edges.
+/// @name Variance shadow maps: W. Donnelly, A. Lauritzen, Variance Shadow Maps, 2006, and A. Lauritzen, GPU Gems 3, chapter 8: two
+/// moments in 32-bit floats, blurred, Chebyshev's bound. No mip levels, and no reduction of bleeding, which trades leaks for hard
+/// edges.
 /// @{
 inline constexpr std::string_view vsm_casters_text = R"(
 in float bench_depth;
@@ -108,8 +109,8 @@ float bench_light(vec2 texel, float z) {
 )";
 /// @}
 
-/// @name Exponential variance shadow maps: A. Lauritzen, M. McCool, Layered Variance Shadow Maps, 2008, with both warps, in 32-bit floats;
-/// exponents 40 and 5 and the bias as in M. Pettineo, A Sampling of Shadow Techniques, 2013.
+/// @name Exponential variance shadow maps: A. Lauritzen, M. McCool, Layered Variance Shadow Maps, 2008, with both warps, in 32-bit
+/// floats; exponents 40 and 5 and the bias as in M. Pettineo, A Sampling of Shadow Techniques, 2013.
 /// @{
 inline constexpr std::string_view evsm_warp_text = R"(
 const vec2 exponents = vec2(40.0, 5.0);
@@ -141,8 +142,8 @@ float bench_light(vec2 texel, float z) {
 )";
 /// @}
 
-/// gnomon's own pair as an engine may write it that wants no exactness: floats, the sampler's blend, a constant for three roundings of
-/// eight bits and one for the caster's own. It shows what the library's exact receiver and filter cost.
+/// gnomon's own pair as an engine may write it that wants no exactness: floats, the sampler's blend, a constant for three roundings
+/// of eight bits and one for the caster's own. It shows what the library's exact receiver and filter cost.
 inline constexpr std::string_view plain_text = R"(
 uniform sampler2D map;
 const float step = 1.0 / 255.0;

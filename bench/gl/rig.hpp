@@ -129,21 +129,24 @@ inline constexpr gl::format depth24_format{"DEPTH_COMPONENT24",     enums::depth
     return made;
 }
 
+inline void sample_linearly(const gl::context& c, unsigned texture) {
+    c.gl->BindTexture(enums::texture_2d, texture);
+    for (const unsigned filter : {enums::texture_min_filter, enums::texture_mag_filter})
+        c.gl->TexParameteri(enums::texture_2d, filter, static_cast<int>(enums::linear));
+}
+
 /// A texture with LINEAR samples; of depths, compared ones.
 [[nodiscard]] inline gl::texture linear_texture(const gl::context& c, const gl::format& as, extent size) {
     gl::texture made = must(gl::make_texture(c, as, size));
-    const auto set = [&c](unsigned name, unsigned value) { c.gl->TexParameteri(enums::texture_2d, name, static_cast<int>(value)); };
-    set(enums::texture_min_filter, enums::linear);
-    set(enums::texture_mag_filter, enums::linear);
-    if (as.upload == enums::depth_component) {
-        constexpr unsigned compare_ref_to_texture = 0x884E;
-        set(enums::texture_compare_mode, compare_ref_to_texture); // LEQUAL is what a new texture has
-    }
+    sample_linearly(c, made.name());
+    constexpr int compare_ref_to_texture = 0x884E; // LEQUAL is what a new texture has
+    if (as.upload == enums::depth_component)
+        c.gl->TexParameteri(enums::texture_2d, enums::texture_compare_mode, compare_ref_to_texture);
     return made;
 }
 
-/// The scene as GL has it, for maps of one size: its triangles, receivers on a screen as large, and two targets for intensities, one
-/// as an engine has it and one that rounds nothing.
+/// The scene as GL has it, for maps of one size: its triangles, receivers on a screen as large, and two targets for intensities,
+/// one as an engine has it and one that rounds nothing.
 class stage {
   public:
     stage(const gl::context& c, const scene& of, int texels)

@@ -1,7 +1,7 @@
 // The scene of bench/gl: surfaces under a sun, what a camera sees of them, and the exact shadow on that.
 //
-// Light space: x and y in [0, 1] over the map, depth 0 at the light. A tilted ground receives; platforms that face the light cast and
-// receive; leaves in all directions and a fence cast, over ground and platforms, and the camera looks through beneath them.
+// Light space: x and y in [0, 1] over the map, depth 0 at the light. A tilted ground receives; platforms that face the light cast
+// and receive; leaves in all directions and a fence cast, over ground and platforms, and the camera looks through beneath them.
 #pragma once
 
 #include <gnomon/filter/kernel.hpp>
@@ -143,8 +143,8 @@ class exact_shadow {
         });
     }
 
-    /// The share of a footprint that is in shadow at the receiver's depth: of the kernel's taps, one texel apart and each a tent as wide as
-    /// bilinear sampling, for that is what every method here blurs with. Between 0 and 1; off the map there is light.
+    /// The share of a footprint that is in shadow at the receiver's depth: of the kernel's taps, one texel apart and each a tent as
+    /// wide as bilinear sampling, for that is what every method here blurs with. Between 0 and 1; off the map there is light.
     template <gnomon::kernel Kernel> [[nodiscard]] double of(const receiver& r) const {
         constexpr int most = fine * (2 * Kernel::radius + 4);
         std::array<double, std::size_t{most}> across{}, down{};

@@ -74,6 +74,9 @@ template <gnomon::texel_format Texel, gnomon::kernel Kernel> class gnomon_map : 
         return static_cast<double>(gnomon::detail::texels_in(regions)) / (1.0 * on_.side * on_.side);
     }
 
+  protected:
+    [[nodiscard]] unsigned soft_texture() const { return map_.soft_texture(); }
+
   private:
     /// Nothing: what casters touch is marked one by one.
     struct touched {
@@ -86,6 +89,27 @@ template <gnomon::texel_format Texel, gnomon::kernel Kernel> class gnomon_map : 
     gnomon::soft_shadow_map<Texel, Kernel, gl::backend> map_;
     gl::program casters_;
     gl::receive_pass<Texel> receivers_;
+};
+
+/// gnomon's 8-bit map, read by a sampler and decided as plain_text has it: what exactness costs a receiver.
+template <gnomon::kernel Kernel> class sampled_gnomon_map : public gnomon_map<gnomon::rg8, Kernel> {
+  public:
+    sampled_gnomon_map(const gl::context& c, const stage& on, const scene& of)
+        : gnomon_map<gnomon::rg8, Kernel>(c, on, of, false),
+          receivers_(
+              program_of(c, screen_vertex_text, std::string(plain_text) + std::string(receive_main_text), {"map", "points"})) {
+        const gl::state_guard<> forced(c);
+        sample_linearly(c, this->soft_texture());
+    }
+
+    using technique::receive;
+    void receive(unsigned framebuffer) override {
+        const gl::state_guard<> forced(this->c_);
+        this->on_.receive(framebuffer, receivers_, this->soft_texture());
+    }
+
+  private:
+    gl::program receivers_;
 };
 
 /// Percentage closer filtering: depths alone.
