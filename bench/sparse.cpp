@@ -6,13 +6,13 @@
 //     frame.10pct ...  a frame of a soft_shadow_map where everything moved by half a tile: clear, mark, filter
 //     empty            a frame without casters
 // With .avx2 behind WHAT it is simd<avx2>.
+#include "clusters.hpp"
+
 #include <gnomon/backend/simd.hpp>
 #include <gnomon/soft_shadow_map.hpp>
 
 #include <benchmark/benchmark.h>
 
-#include <cstdint>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -24,21 +24,7 @@ using kernel_9 = eight_bit<gaussian<4>>;
 constexpr int side = 1024, tile = 32, columns = side / tile;
 constexpr extent size{side, side};
 
-/// Boxes of 1 to 5 tiles a side, wherever they fall, until so many of a hundred tiles are covered: always the same ones.
-std::vector<tile_rect> clustered(int percent) {
-    std::mt19937 dice(1);
-    const auto roll = [&dice](int first, int last) {
-        return first + static_cast<int>(dice() % static_cast<unsigned>(last - first + 1));
-    };
-    std::vector<tile_rect> boxes;
-    tile_grid covered({columns, columns}, 1);
-    while (covered.count() * 100 < percent * columns * columns) {
-        const int width = roll(1, 5), height = roll(1, 5), x = roll(0, columns - width), y = roll(0, columns - height);
-        boxes.push_back({x, y, x + width, y + height});
-        covered.mark({x, y, x + width, y + height});
-    }
-    return boxes;
-}
+std::vector<tile_rect> clustered(int percent) { return clusters::covering(percent, columns); }
 
 struct scene {
     image<texel> casters{size, texel::clear()};
@@ -53,16 +39,7 @@ struct scene {
         }
     }
     /// The share of the map that lies within the radius of a caster.
-    [[nodiscard]] double grown() const {
-        image<unsigned char> near_by(size);
-        for (int y = 0; y < tiles.rows(); ++y)
-            for (int x = 0; x < tiles.columns(); ++x)
-                if (tiles.held(y).test(x)) near_by.view().fill(grow(tiles.texels_of({x, y, x + 1, y + 1}), kernel_9::radius), 1);
-        std::int64_t sum = 0;
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x) sum += near_by(x, y);
-        return static_cast<double>(sum) / (1.0 * side * side);
-    }
+    [[nodiscard]] double grown() const { return clusters::grown_area(tiles, side, kernel_9::radius); }
 };
 
 template <typename F> void add(const std::string& what, F&& work) {

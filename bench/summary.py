@@ -149,8 +149,60 @@ def flags(path):
     return ratios
 
 
+GL_PEERS = ("plain.k9", "rg8.k9.sampled", "pcf2x2", "pcf3x3", "pcf5x5", "vsm", "vsm.casters_only", "evsm4", "evsm4.casters_only")
+GL_ERRORS = ("rmse_ground", "rmse_own", "rmse_platform", "leak", "dark")
+
+
+def on_gl(path):
+    """By the clock on the wall, of_X being time over that of X. Names of maps of 512 texels a side end so; others have 1024."""
+    runs = [run for run in json.loads(pathlib.Path(path).read_text())["benchmarks"] if run.get("aggregate_name") == "median"]
+    by_name = {run["run_name"].removesuffix("/manual_time"): run for run in runs}
+    time, ratios = {name: run["real_time"] for name, run in by_name.items()}, {}
+
+    def over(name, ours, theirs):
+        if ours in time and theirs in time:
+            ratios[f"gl.{name}"] = time[ours] / time[theirs]
+
+    for name in time:
+        what, of, *rest = name.split("/")
+        size = name.rpartition("/")[2]
+        suffix = "" if size == "1024" else f".{size}"
+        dense = f"frame/rg8.k9.dense/{size}"
+        if what == "filter":
+            taps, which = rest[:2]
+            if which != "dense":
+                over(f"filter.{of}.{taps}.{which}.of_dense", name, f"filter/{of}/{taps}/dense/1024")
+            else:
+                over(f"filter.{of}.{taps}.dense.of_rg8_k9", name, "filter/rg8/k9/dense/1024")
+        elif what in ("cast", "mask"):
+            over(f"{what}.{of}.of_rg8", name, f"{what}/rg8/1024")
+        elif what == "frame":
+            over(f"frame.{of}.of_rg8_dense{suffix}", name, dense)
+            for peer in GL_PEERS if of in ("rg8.k9", "rg8.k9.dense") else ():
+                over(f"frame.{of}.vs_{peer}{suffix}", f"frame/{peer}/{size}", name)
+            ratios[f"gl.frame.{of}.filtered{suffix}"] = by_name[name]["filtered"]
+            for error in GL_ERRORS:
+                ratios[f"gl.error.{of}.{error}{suffix}"] = by_name[name][error]
+        else:
+            over(f"{what}.{of}.of_rg8_dense_frame{suffix}", name, dense)
+    return ratios
+
+
+def gl_table(ratios):
+    """What a person asks of them first: time, the passes' shares of it and the errors of each technique at 1024 texels a side."""
+    order = {name.removeprefix("gl.frame.").removesuffix(".of_rg8_dense"): ratio for name, ratio in ratios.items()
+             if name.startswith("gl.frame.") and name.endswith(".of_rg8_dense")}
+    if order:
+        print(f"{'a frame on GL; rg8.k9.dense = 1':32}   frame casters   blur receive  rmse: ground    own platform    leak    dark")
+    for name, frame in sorted(order.items(), key=lambda item: item[1]):
+        passes = [ratios.get(f"gl.{what}.{name}.of_rg8_dense_frame", 0.0) for what in ("casters", "blur", "receive")]
+        errors = [ratios[f"gl.error.{name}.{what}"] for what in GL_ERRORS]
+        print(f"{name:32}{frame:8.2f}{passes[0]:8.2f}{passes[1]:7.2f}{passes[2]:8.2f}" +
+              f"{errors[0]:14.4f}{errors[1]:7.4f}{errors[2]:9.4f}{errors[3]:8.4f}{errors[4]:8.4f}")
+
+
 MEASURED = {"filter": filters, "receive": receives, "sparse": sparses, "grid": grids, "pipeline": pipelines, "threads": threads,
-            "raster": rasters, "flags": flags}
+            "raster": rasters, "flags": flags, "gl": on_gl}
 
 
 def main():
@@ -164,6 +216,7 @@ def main():
             ratios |= ratios_of(path)
     for name, ratio in sorted(ratios.items()):
         print(f"{name:52}{ratio:8.3g}")
+    gl_table(ratios)
     if not any("opencv" in name for name in ratios):
         print("no peers: OpenCV was not there when the benches were built")
     if given.summary:
