@@ -675,12 +675,13 @@ TEST_CASE("no polygon is snapped that has a corner without a place, or two corne
 }
 
 TEST_CASE("a triangle's depth is solved about its reference, which edge-on is all that it has") {
-    const light_frame affine(glm::dmat4(1.0), map_size, 1.0, 1.0), lamp(glm::dmat4(1.0), map_size, 1.0, 3.0);
+    const light_frame affine(glm::dmat4(1.0), map_size, 1.0, 1.0), lamp(glm::dmat4(1.0), map_size, 1.0, 5.0);
     const glm::dvec4 flat[]{{0, 3, 0.25, 1}, {10, 3, 0.75, 1}, {5, 3, 0.5, 1}}, // on a line, the last in its middle
-        deep[]{{0, 4.5, 0.25, 1.5}, {20, 7.5, 0.75, 2.5}, {10, 6, 0.5, 2}};
+        deep[]{{0, 6, 0.25, 2}, {30, 12, 0.75, 4}, {15, 9, 0.5, 3}};
     const detail::depth_surface surfaces[]{{flat, flat[2], affine}, {deep, deep[2], lamp}};
     for (const detail::depth_surface& surface : surfaces) {
         CHECK(std::abs(surface.area()) <= 0.0);
+        CHECK((surface.depth().nearest == doctest::Approx(0.25) && surface.depth().farthest == doctest::Approx(0.75)));
         CHECK((surface.depth().x == doctest::Approx(5.0) && surface.depth().y == doctest::Approx(3.0)));
         for (int x = 0; x < 10; ++x) CHECK(surface.depth()(x, 7 - x) == doctest::Approx(0.5));
     }

@@ -35,11 +35,13 @@ bool covers(fixed_point a, fixed_point b, fixed_point c, int x, int y) {
 struct counted {
     texel_rect area;
     std::vector<int> count;
+    int empty_runs = 0;
 
     explicit counted(texel_rect r) : area(r), count(static_cast<std::size_t>(r.width() * r.height())) {}
     int& at(int x, int y) { return count[static_cast<std::size_t>((y - area.y0) * area.width() + x - area.x0)]; }
     void add(const fixed_point* corners, int n) {
         gnomon::detail::scan(corners, n, area, [this](int y, int x0, int x1) {
+            empty_runs += x0 >= x1;
             for (int x = x0; x < x1; ++x) ++at(x, y);
         });
     }
@@ -57,7 +59,7 @@ struct dice {
 };
 
 int differences(counted& drawn, fixed_point a, fixed_point b, fixed_point c) {
-    int wrong = 0;
+    int wrong = drawn.empty_runs;
     for (int y = drawn.area.y0; y < drawn.area.y1; ++y)
         for (int x = drawn.area.x0; x < drawn.area.x1; ++x) wrong += drawn.at(x, y) != (covers(a, b, c, x, y) ? 1 : 0);
     return wrong;
@@ -171,14 +173,18 @@ TEST_CASE("snapping takes the nearest 1/256 texel, halves upwards, and keeps to 
 }
 
 namespace {
-constexpr int texels_of(fixed_point a, fixed_point b, fixed_point c) {
-    const fixed_point corners[3]{a, b, c};
+constexpr fixed_point at(std::int64_t x, std::int64_t y) { return {x, y}; }
+constexpr int texels_of(auto... corner) {
+    const fixed_point corners[]{corner...};
     int count = 0;
-    gnomon::detail::scan(corners, 3, {0, 0, 100, 100}, [&](int, int x0, int x1) { count += x1 - x0; });
+    gnomon::detail::scan(corners, sizeof...(corner), {0, 0, 100, 100}, [&](int, int x0, int x1) { count += x1 - x0; });
     return count;
 }
-static_assert(texels_of({0, 0}, {2560, 0}, {0, 2560}) == 45,
+static_assert(texels_of(at(0, 0), at(2560, 0), at(0, 2560)) == 45,
               "half a square whose diagonal runs through 10 centres, none of them its own");
-static_assert(texels_of({2560, 2560}, {2560, 0}, {0, 2560}) == 55, "the other half owns them: they are on its left edge");
-static_assert(texels_of({0, 0}, {2560, 2560}, {5120, 5120}) == 0, "a line covers nothing");
+static_assert(texels_of(at(2560, 2560), at(2560, 0), at(0, 2560)) == 55, "the other half owns them: they are on its left edge");
+static_assert(texels_of(at(0, 0), at(2560, 2560), at(5120, 5120)) == 0, "a line covers nothing");
+static_assert(texels_of(at(0, 0), at(1024, 0), at(1024, 1024), at(2048, 1024), at(2048, 0), at(3072, 0), at(3072, 2048),
+                        at(0, 2048)) == 4 * (4 + 4) + 4 * 12,
+              "between the arms of a U is nothing");
 } // namespace
