@@ -115,6 +115,7 @@ TEST_CASE("gnomon_exceeds compares a product as if it were not rounded") {
         const float product = a * b; // a float beside the product, where they are hardest to tell apart
         if (!(product - product <= 0.0f)) continue;
         for (int away = -1; away <= 1; ++away) holds(a, b, neighbour(product, away));
+        holds(a, b, neighbour(product, roll(-64, 64))); // where floats begin to tell
     }
     for (int i = 0; i < 300'000; ++i) { // products that are floats
         const float a = static_cast<float>(roll(1, 4095)) * 0x1p-12f, b = test::float_of(0x3F800000u + (roll.word() & 0x7FF000u));

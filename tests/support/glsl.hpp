@@ -163,6 +163,7 @@ template <int N> vec<real, N> floor(const vec<real, N>& v) {
     for (int i = 0; i < N; ++i) made[i] = floor(v[i]);
     return made;
 }
+inline real abs(real v) { return v < real(0.0f) ? -v : v; }
 inline uint max(uint a, uint b) { return a < b ? b : a; }
 inline uint min(uint a, uint b) { return b < a ? b : a; }
 inline int max(int a, int b) { return a < b ? b : a; }

@@ -1,6 +1,8 @@
 // gnomon: receivers behind casters of unorm16 (e, m)
-// a * b > c, exactly, which takes 48 bits
+// a * b > c, exactly, which takes 48 bits where the two are nearly alike
 bool gnomon_exceeds(float a, float b, float c) {
+    float product = a * b;
+    if (abs(product - c) > abs(product) * 0.000001 + 1e-30) return product > c;
     uint x = floatBitsToUint(a), y = floatBitsToUint(b), z = floatBitsToUint(c);
     bool below = ((x ^ y) >> 31) != 0u, c_below = (z >> 31) != 0u; // zero, so the product and c
     x &= 0x7FFFFFFFu;
@@ -58,6 +60,8 @@ uvec3 gnomon_shifted(uvec2 n, int shift) {
 
 // a * b > c, exactly; a and c are sums of a number in halves and one in parts of 2^16
 bool gnomon_exceeds(vec2 a, float b, vec2 c) {
+    float product = (a.x + a.y) * b, sum = c.x + c.y;
+    if (abs(product - sum) > abs(product) * 0.000001 + 1e-30) return product > sum;
     uint bits = floatBitsToUint(b), y = bits & 0x7FFFFFFFu;
     bool below = (a.x + a.y < 0.0) != (y != bits), c_below = c.x + c.y < 0.0; // zero, so the product and c
     uvec2 x = gnomon_units(a), z = gnomon_units(c);
@@ -69,11 +73,11 @@ bool gnomon_exceeds(vec2 a, float b, vec2 c) {
     y = max(min(y, 0x51000000u), 0x2E000000u);
     int shift = 150 - int(y >> 23);
     y = (y & 0x7FFFFFu) | 0x800000u;
-    uvec2 product = uvec2(0u, x.y * (y & 0xFFFu));
-    product = gnomon_add_shifted(product, x.y * (y >> 12), 12);
-    product = gnomon_add_shifted(product, x.x * (y & 0xFFFu), 16);
-    product = gnomon_add_shifted(product, x.x * (y >> 12), 28);
-    uvec3 left = gnomon_shifted(product, max(-shift, 0));
+    uvec2 units = uvec2(0u, x.y * (y & 0xFFFu));
+    units = gnomon_add_shifted(units, x.y * (y >> 12), 12);
+    units = gnomon_add_shifted(units, x.x * (y & 0xFFFu), 16);
+    units = gnomon_add_shifted(units, x.x * (y >> 12), 28);
+    uvec3 left = gnomon_shifted(units, max(-shift, 0));
     uvec3 right = gnomon_shifted(uvec2(z.x >> 16, z.x << 16 | z.y), max(shift, 0));
     if (left.x != right.x) return (left.x > right.x) != below;
     if (left.y != right.y) return (left.y > right.y) != below;

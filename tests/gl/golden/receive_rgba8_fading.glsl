@@ -1,6 +1,8 @@
 // gnomon: receivers behind casters of unorm8 (e, m, far bound, contribution)
-// a * b > c, exactly, which takes 48 bits
+// a * b > c, exactly, which takes 48 bits where the two are nearly alike
 bool gnomon_exceeds(float a, float b, float c) {
+    float product = a * b;
+    if (abs(product - c) > abs(product) * 0.000001 + 1e-30) return product > c;
     uint x = floatBitsToUint(a), y = floatBitsToUint(b), z = floatBitsToUint(c);
     bool below = ((x ^ y) >> 31) != 0u, c_below = (z >> 31) != 0u; // zero, so the product and c
     x &= 0x7FFFFFFFu;
