@@ -29,6 +29,8 @@ template <kernel Kernel, int Total> struct neighbouring_weights {
     template <int Bits, int Count = 2> [[nodiscard]] static constexpr std::uint32_t at(int t) noexcept {
         return all<Bits, Count>[static_cast<std::size_t>(t + rows_at_once)];
     }
+    /// Are both weights from tap `t` on zero, for they lie beyond the ends? Asked where all taps are written out, so that it is known.
+    [[nodiscard]] static constexpr bool none(int t) noexcept { return taps + rows_at_once <= 17 && (t + 1 < 0 || t >= taps); }
     static constexpr bool fit_signed_bytes = [] {
         for (const int w : Kernel::weights)
             if (w * (Total / Kernel::total) > 127) return false;
@@ -82,6 +84,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct whole_sums {
                                         : halves{Isa::low_pairs16(above, below), Isa::high_pairs16(above, below)};
             GNOMON_UNROLL(4)
             for (int j = 0; j < rows_at_once; ++j) {
+                if (weights::none(t - j)) continue;
                 const ints w = Isa::repeat32(weights::template at<bytes ? 8 : 16>(t - j));
                 sum[j] = {add(sum[j].low, w, values.low), add(sum[j].high, w, values.high)};
                 Isa::settle(sum[j].low);
@@ -122,7 +125,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct pair_filter : 
             ints depth[rows_at_once], mask[rows_at_once];
             if constexpr (!bytes)
                 sum_words(rows, i, depth, mask);
-            else if constexpr (sums_quads<Isa> && weights::fit_signed_bytes)
+            else if constexpr (sums_quads<Isa> && weights::fit_signed_bytes && taps > 11)
                 sum_fours(rows, i, depth, mask);
             else
                 sum_pairs(rows, i, depth, mask);
@@ -182,6 +185,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct pair_filter : 
             const ints depths = Isa::even_pairs8(above, below), masks = Isa::odd_pairs8(above, below);
             GNOMON_UNROLL(4)
             for (int j = 0; j < rows_at_once; ++j) {
+                if (weights::none(t - j)) continue;
                 const ints w = Isa::repeat32(weights::template at<8>(t - j));
                 depth[j] = Isa::add16(depth[j], Isa::multiply_pairs8(w, depths));
                 mask[j] = Isa::add16(mask[j], Isa::multiply_pairs8(w, masks));
@@ -191,7 +195,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct pair_filter : 
         }
     }
 
-    /// Bytes, four rows at a time, where lanes sum four products.
+    /// Bytes, four rows at a time, where lanes sum four products: of many taps, for few do not fill the fours.
     GNOMON_LANES_VOID void sum_fours(const storage* const* rows, int i, ints* depth, ints* mask) noexcept {
         ints sum[rows_at_once][4];
         GNOMON_UNROLL(4)
