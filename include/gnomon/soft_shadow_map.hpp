@@ -15,7 +15,7 @@ struct map_size {
     int width = 0;
     int height = 0;
     int tile = 32;
-    int bands = 32; ///< jobs that filter(executor) hands out at most; each has a line of scratch
+    int bands = 32; ///< jobs that filter(executor) hands out at most; each has a scratch
 };
 
 /// What draws casters: a callable that writes into the image it is given and returns what it touched, `texels` and `depth`.

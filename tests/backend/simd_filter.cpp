@@ -41,15 +41,21 @@ template <typename Texel> bool same_texel(const Texel& a, const Texel& b) {
     return true;
 }
 
-/// Filters a part of an image both ways, into memory that holds something else, and counts what differs anywhere.
-template <typename Isa, gnomon::kernel Kernel, typename Texel> int differing(image_view<const Texel> from, texel_rect region) {
+/// Filters a part of an image both ways, into memory and with a scratch that hold something else, and counts what differs anywhere.
+template <typename Isa, gnomon::kernel Kernel, typename Texel>
+int differing(image_view<const Texel> from, texel_rect region, int scratch_width) {
     image<Texel> expected(from.size(), Texel::caster(0.25f)), made(from.size(), Texel::caster(0.25f));
-    filter_scratch<Texel, Kernel> scratch(from.size().width);
+    filter_scratch<Texel, Kernel> scratch(from.size().width), given(scratch_width);
     gnomon::filter_region(from, expected.view(), region, scratch);
-    simd<Isa>{}.filter_region(from, made.view(), region, scratch);
+    if (!given.line().empty()) std::memset(given.line().data(), 0x5A, given.line().size_bytes());
+    simd<Isa>{}.filter_region(from, made.view(), region, given);
     int n = 0;
     for_each_texel(whole(from.size()), [&](int x, int y) { n += !same_texel(expected(x, y), made(x, y)); });
     return n;
+}
+
+template <typename Isa, gnomon::kernel Kernel, typename Texel> int differing(image_view<const Texel> from, texel_rect region) {
+    return differing<Isa, Kernel>(from, region, from.size().width);
 }
 
 template <typename Isa, typename Kernel, typename Texel> using doubles = gnomon::on_any::wide_filter<Isa, Kernel, Texel, double>;
@@ -81,7 +87,7 @@ TEST_CASE_TEMPLATE("lanes filter as the oracle does, for every width to 67 and a
 TEST_CASE_TEMPLATE("lanes filter as the oracle does, for every shape of kernel and any part of a map", Texel, rg8, gnomon::rgb8,
                    gnomon::rgba16, gnomon::rg16f, test::paper8) {
     dice roll(402);
-    image<Texel> map({2060, 23}, Texel::clear()); // wider than a strip
+    image<Texel> map({2060, 23}, Texel::clear()); // wider than what passes the caches at a time
     for_each_texel({40, 0, 2060, 23}, [&](int x, int y) {
         if (!roll.one_in(3)) map(x, y) = test::any_caster<Texel>(roll);
     });
@@ -109,6 +115,38 @@ TEST_CASE(
         CHECK(differing<Isa, gnomon::fast<binomial<17>>>(of_words, whole(words.size())) == 0);
         CHECK(differing<Isa, box<109>>(of_words, whole(words.size())) == 0);
     });
+}
+
+TEST_CASE_TEMPLATE("lanes filter as the oracle does, in strips as wide as there is room for", Texel, rg8, gnomon::rgb8,
+                   gnomon::rg16, gnomon::rg32f) {
+    dice roll(408);
+    const auto map = test::noise<Texel>(roll, {1500, 11}, 3);
+    for_each_isa([&]<typename Isa>() {
+        int wrong = 0;
+        for (const int width : {0, 10, 150, 700, 1500})
+            for (const texel_rect part : {whole(map.size()), texel_rect{1, 5, 1499, 7}, texel_rect{700, 0, 1301, 11}})
+                wrong += differing<Isa, binomial<4>, Texel>(map.view(), part, width) +
+                         differing<Isa, gnomon::fast<gaussian<3>>, Texel>(map.view(), part, width);
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("the scratch of a map has room for whole rows of it, half rows of doubles, and none for more") {
+    const auto widest = []<typename Isa, typename Kernel, typename Texel>(int width) {
+        using room = gnomon::on_any::filter_room<gnomon::on_any::filter_of<Isa, Kernel, Texel>, Texel>;
+        const std::size_t given = gnomon::filter_scratch_size<Texel, Kernel>(width) * sizeof(gnomon::line_element<Texel>);
+        return room::widest(given, width) / Texel::channels;
+    };
+    for (const int width : {1, 64, 1001, 4096}) {
+        CAPTURE(width);
+        CHECK(widest.operator()<emulated<64>, binomial<4>, rg8>(width) == width);
+        CHECK(widest.operator()<emulated<64>, binomial<4>, gnomon::rgba8>(width) == width);
+        CHECK(widest.operator()<emulated<64>, gnomon::fast<gaussian<16>>, gnomon::texel<gnomon::unorm8>>(width) == width);
+        CHECK(widest.operator()<emulated<64>, gnomon::fast<binomial<4>>, gnomon::rg16>(width) == width);
+        CHECK(widest.operator()<emulated<64>, gnomon::fast<gaussian<32>>, gnomon::rg32f>(width) == width);
+        CHECK(widest.operator()<emulated<64>, gaussian<4>, gnomon::rg32f>(width) >= width / 2);
+        CHECK(widest.operator()<emulated<64>, gaussian<4>, gnomon::rg8>(width) >= width / 4);
+    }
 }
 
 TEST_CASE("what is too large for the caches goes past them, whole registers where they are aligned, and is the same") {

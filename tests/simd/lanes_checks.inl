@@ -56,14 +56,15 @@ template <typename Isa> int wrong_fours(const memory* m) {
 /// How many operations on whole numbers answer otherwise.
 template <typename Isa> int wrong_ints(const memory* m) {
     using same = gnomon::emulated<Isa::bytes>;
-    const auto a = Isa::load(m[0].byte), b = Isa::load(m[1].byte), c = Isa::load(m[2].byte), d = Isa::load(m[3].byte);
-    const auto e = same::load(m[0].byte), f = same::load(m[1].byte), g = same::load(m[2].byte), h = same::load(m[3].byte);
+    const auto a = Isa::load(m[0].byte), b = Isa::load(m[1].byte), c = Isa::load(m[2].byte);
+    const auto e = same::load(m[0].byte), f = same::load(m[1].byte), g = same::load(m[2].byte);
     std::uint32_t word;
     std::memcpy(&word, m[0].byte, sizeof word);
     // Two weights that sum to at most 256, as a kernel's do.
     const std::uint32_t pair = (word & 0xFF) | (256 - (word & 0xFF)) % 256 << 8, weights = pair | pair << 16;
-    memory below_2_24 = m[0];
-    for (int i = 3; i < 64; i += 4) below_2_24.byte[i] = 0;
+    memory below_2_24[4] = {m[0], m[1], m[2], m[3]};
+    for (memory& each : below_2_24)
+        for (int i = 3; i < 64; i += 4) each.byte[i] = 0;
     memory stored, bytes_in_words = m[1];
     for (int i = 1; i < 64; i += 2) bytes_in_words.byte[i] = 0;
     Isa::store(stored.byte, a);
@@ -74,8 +75,10 @@ template <typename Isa> int wrong_ints(const memory* m) {
            differing<Isa>(Isa::odd_pairs8(a, b), same::odd_pairs8(e, f)) +
            differing<Isa>(Isa::multiply_pairs8(Isa::repeat32(weights), b), same::multiply_pairs8(same::repeat32(weights), f)) +
            differing<Isa>(Isa::add16(a, b), same::add16(e, f)) + differing<Isa>(Isa::add_dot16(a, b, c), same::add_dot16(e, f, g)) +
-           differing<Isa>(Isa::interleave_byte2(Isa::load(below_2_24.byte), b, c, d),
-                          same::interleave_byte2(same::load(below_2_24.byte), f, g, h)) +
+           differing<Isa>(Isa::interleave_byte2(Isa::load(below_2_24[0].byte), Isa::load(below_2_24[1].byte),
+                                                Isa::load(below_2_24[2].byte), Isa::load(below_2_24[3].byte)),
+                          same::interleave_byte2(same::load(below_2_24[0].byte), same::load(below_2_24[1].byte),
+                                                 same::load(below_2_24[2].byte), same::load(below_2_24[3].byte))) +
            differing<Isa>(Isa::low_pairs8(a, b), same::low_pairs8(e, f)) +
            differing<Isa>(Isa::high_pairs8(a, b), same::high_pairs8(e, f)) +
            differing<Isa>(Isa::low_pairs16(a, b), same::low_pairs16(e, f)) +

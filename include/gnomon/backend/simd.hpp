@@ -6,6 +6,7 @@
 #include <gnomon/simd/isa.hpp>
 
 #include <concepts>
+#include <span>
 
 #define GNOMON_ON on_any
 #include <gnomon/backend/simd_filter.hpp>
@@ -33,18 +34,20 @@ namespace detail {
 #if GNOMON_X86
 /// Each target's code goes by its own name.
 template <typename Isa, kernel Kernel, texel_format Texel>
-bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
+bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
+               std::span<line_element<Texel>> scratch) noexcept {
     if constexpr (std::same_as<Isa, avx512>)
-        return on_avx512::filter<avx512, Kernel, Texel>(from, to, region);
+        return on_avx512::filter<avx512, Kernel, Texel>(from, to, region, scratch);
     else if constexpr (std::same_as<Isa, avx2>)
-        return on_avx2::filter<avx2, Kernel, Texel>(from, to, region);
+        return on_avx2::filter<avx2, Kernel, Texel>(from, to, region, scratch);
     else
-        return on_any::filter<Isa, Kernel, Texel>(from, to, region);
+        return on_any::filter<Isa, Kernel, Texel>(from, to, region, scratch);
 }
 #else
 template <typename Isa, kernel Kernel, texel_format Texel>
-bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
-    return on_any::filter<Isa, Kernel, Texel>(from, to, region);
+bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
+               std::span<line_element<Texel>> scratch) noexcept {
+    return on_any::filter<Isa, Kernel, Texel>(from, to, region, scratch);
 }
 #endif
 
@@ -54,7 +57,8 @@ bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect re
 /// simd_isa of your own. Results are those of `scalar`, bit for bit; of a NaN in half or float texels only that it is one.
 ///
 /// What lanes do not know is left to `scalar`: channels of a user's, radii beyond 256, maps narrower than a register, and of ratios those
-/// whose sums are not exact in double; of decisions see backend/reconstruct.hpp. Needs no scratch for what it does itself.
+/// whose sums are not exact in double; of decisions see backend/reconstruct.hpp. Too narrow a scratch only cuts a region into
+/// strips.
 /// \pre the processor has the lanes that are named: ask best_lanes(). Without asserts all is left to `scalar` if it has not. simd<>
 /// has no such condition.
 template <typename Isa = best_isa> struct simd {
@@ -69,7 +73,9 @@ template <typename Isa = best_isa> struct simd {
         if constexpr (detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
                       on_any::filtered_in_lanes<Kernel, Texel>) {
             const texel_rect part = clip(clip(region, to.size()), from.size());
-            const auto filtered_by = [&]<typename Lanes>() { return detail::filter_on<Lanes, Kernel>(from, to, part); };
+            const auto filtered_by = [&]<typename Lanes>() {
+                return detail::filter_on<Lanes, Kernel>(from, to, part, scratch.line());
+            };
             if (!part.empty() && from.data() != to.data() && detail::in_lanes<Isa>(filtered_by)) return;
         }
         gnomon::filter_region(from, to, region, scratch);

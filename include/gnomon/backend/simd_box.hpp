@@ -10,6 +10,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <span>
 
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
@@ -31,7 +32,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
     using ints = typename Isa::ints;
     static constexpr int channels = Texel::channels, step = Isa::float_lanes;
     static constexpr int margin = Kernel::radius * channels, window = Kernel::total * channels;
-    static constexpr int strip = strip_bytes / 4 / channels * channels;
+    static constexpr int strip = piece_bytes / 4 / channels * channels;
     static constexpr int line_size = window + strip + 2 * step;
     using normalised =
         division<std::uint64_t{Kernel::total} * Kernel::total, static_cast<std::uint64_t>(Texel::channel_type::scale)>;
@@ -122,14 +123,15 @@ void filter_box(image_view<const Texel> from, image_view<Texel> to, texel_rect r
     }
 }
 
-/// filter_region in lanes, for a region within both images. False, and nothing done, where rows are shorter than a register.
+/// filter_region in lanes, for a region within both images. False, and nothing done, where filter_rows says so.
 template <typename Isa, kernel Kernel, texel_format Texel>
-bool filter(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
+bool filter(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
+            std::span<line_element<Texel>> scratch) noexcept {
     if constexpr (runs_sums<Kernel, Texel>) {
         filter_box<Isa, Kernel, Texel>(from, to, region);
         return true;
     } else {
-        return filter_rows<Isa, Kernel, Texel>(from, to, region);
+        return filter_rows<Isa, Kernel, Texel>(from, to, region, scratch);
     }
 }
 

@@ -2,7 +2,8 @@
 // no #pragma once: GNOMON_ON names the namespace it goes to; without it there is nothing.
 //
 // As in filter/separable.hpp columns come first, into a line, and the line goes into a row with one rounding; but four rows are
-// summed at once, from the same loads, and a region is cut into strips whose lines stay in the first cache.
+// summed at once, from the same loads. Strips are as wide as the region where there is room: processors fetch what a row goes on with
+// by themselves, but not where the next row of a strip begins.
 
 #include <gnomon/backend/simd_wide.hpp>
 #include <gnomon/backend/simd_words.hpp>
@@ -13,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <type_traits>
 
 #ifdef GNOMON_ON
@@ -62,14 +64,55 @@ template <typename Isa> void stream(void* to, const void* from, std::size_t byte
     std::memcpy(out + i, in + i, bytes - i);
 }
 
+/// The caller's scratch in use: lines of sums for four rows, and a row of nothing for what lies off the map. What a line holds of the
+/// first column that is summed begins on a cache line.
+template <typename Pass, texel_format Texel> struct filter_room {
+    using element = typename Pass::element;
+    [[nodiscard]] static constexpr int whole_cache_lines(int elements) noexcept {
+        constexpr int in_one = 64 / static_cast<int>(sizeof(element));
+        return (elements + in_one - 1) / in_one * in_one;
+    }
+    static constexpr int before = whole_cache_lines(Pass::place(Pass::margin));
+    /// Channels beside those of a strip: both margins, a register on either side, and a texel that a pair of taps may read without a
+    /// weight.
+    static constexpr int around = 2 * (Pass::margin + Pass::step) + Texel::channels;
+    [[nodiscard]] static constexpr int plane_of(int strip) noexcept {
+        return before + whole_cache_lines(Pass::place(strip + around));
+    }
+    [[nodiscard]] static constexpr std::size_t bytes(int strip) noexcept {
+        return 63 + static_cast<std::size_t>(rows_at_once * Pass::planes * plane_of(strip)) * sizeof(element) +
+               static_cast<std::size_t>(strip + around) * sizeof(typename Texel::storage);
+    }
+
+    /// As many texels of a row as there is room for: all, or a half, or a quarter ...
+    [[nodiscard]] static constexpr int widest(std::size_t room, int width) noexcept {
+        width = lesser(width, strip_bytes / static_cast<int>(sizeof(element)) / Texel::channels);
+        while (width > 1 && bytes(width * Texel::channels) > room) width = (width + 1) / 2;
+        return bytes(width * Texel::channels) > room ? 0 : width * Texel::channels;
+    }
+
+    int strip; ///< channels; 0 if there is no room for one texel
+    int plane; ///< elements from one plane of a line to the next, or to the next line
+    element* lines;
+
+    filter_room(std::span<line_element<Texel>> scratch, int width) noexcept
+        : strip(widest(scratch.size_bytes(), width)), plane(plane_of(strip)),
+          lines(reinterpret_cast<element*>((reinterpret_cast<std::uintptr_t>(scratch.data()) + 63) / 64 * 64)) {}
+    [[nodiscard]] element* line(int row) const noexcept { return lines + row * Pass::planes * plane + before; }
+    [[nodiscard]] Texel* nothing() const noexcept { return reinterpret_cast<Texel*>(line(rows_at_once) - before); }
+    void clear_nothing() const noexcept {
+        for (int i = 0; i < (strip + around) / Texel::channels; ++i) nothing()[i] = Texel::clear();
+    }
+};
+
 /// So many channels of a row out of a line: straight to where they go, or by way of `made`, past the caches or because a register
 /// would reach beyond the row.
 template <typename Isa, typename Pass, typename Storage>
-void make_row(const typename Pass::element* line, Storage* to, int count, bool past_caches, Storage* made) noexcept {
+void make_row(const typename Pass::element* line, int plane, Storage* to, int count, bool past_caches, Storage* made) noexcept {
     Storage* const out = past_caches || count < Pass::step ? made : to;
     for (int at = 0; at < count; at += Pass::step) {
         const int i = greater(lesser(at, count - Pass::step), 0);
-        Pass::row(line + Pass::place(i), out + i);
+        Pass::row(line + Pass::place(i), plane, out + i);
     }
     const auto bytes = static_cast<std::size_t>(count) * sizeof(Storage);
     if (past_caches)
@@ -78,47 +121,48 @@ void make_row(const typename Pass::element* line, Storage* to, int count, bool p
         std::memcpy(to, made, bytes);
 }
 
-/// filter_region in lanes, for a region within both images. False, and nothing done, where rows are shorter than a register.
+/// filter_region in lanes, for a region within both images. False, and nothing done, where rows are shorter than a register or the
+/// scratch has no room for a strip of one texel.
 template <typename Isa, kernel Kernel, texel_format Texel>
-bool filter_rows(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
+bool filter_rows(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
+                 std::span<line_element<Texel>> scratch) noexcept {
     using pass = filter_of<Isa, Kernel, Texel>;
     using storage = typename Texel::storage;
     constexpr int channels = Texel::channels, margin = pass::margin;
     constexpr int rows_summed =
         2 * Kernel::radius + rows_at_once; // and a few more are told, to those that take them by twos and fours
     const int row_size = from.width() * channels;
-    if (row_size < pass::step) return false;
+    const filter_room<pass, Texel> room(scratch, region.width());
+    if (row_size < pass::step || room.strip == 0) return false;
     const auto bytes_of = [](int width, int height) { return std::int64_t{width} * height * std::int64_t{sizeof(Texel)}; };
     const bool prefetched = bytes_of(from.width(), from.height()) >= prefetched_bytes;
     const bool past_caches = bytes_of(region.width(), region.height()) >= streamed_bytes;
 
-    alignas(64) storage made[static_cast<std::size_t>(pass::strip + pass::step)];
-    alignas(64) typename pass::element line[static_cast<std::size_t>(rows_at_once * pass::line_size)];
-    Texel nothing[static_cast<std::size_t>((pass::strip + 2 * margin + pass::step + channels - 1) / channels)];
-    const bool beyond = region.y0 < Kernel::radius || region.y1 > from.height() - Kernel::radius - 2 * rows_at_once;
-    if (beyond)
-        for (Texel& each : nothing) each = Texel::clear();
-
-    for (int x0 = region.x0 * channels; x0 < region.x1 * channels; x0 += pass::strip) {
-        const int x1 = lesser(x0 + pass::strip, region.x1 * channels), left = x0 - margin, right = x1 + margin;
+    alignas(64) storage made[static_cast<std::size_t>(pass::piece + pass::step)];
+    if (region.y0 < Kernel::radius || region.y1 > from.height() - Kernel::radius - 2 * rows_at_once) room.clear_nothing();
+    for (int x0 = region.x0 * channels; x0 < region.x1 * channels; x0 += room.strip) {
+        const int x1 = lesser(x0 + room.strip, region.x1 * channels), left = x0 - margin, right = x1 + margin;
         // The columns that are there, and enough of them for one register.
         const int last = greater(lesser(right, row_size), pass::step);
         const int first = greater(lesser(left, last - pass::step), 0);
+        const auto sums = [&](int row) { return room.line(row) + pass::place(left - first); }; // of the column `left`
+        for (int j = 0; j < rows_at_once; ++j) { // stays clear: what is summed lies between
+            pass::clear(sums(j), room.plane, 0, -left);
+            pass::clear(sums(j), room.plane, lesser(row_size, right) - left,
+                        greater(right - left, pass::step + 2 * margin) + channels); // all that one register reads
+        }
         for (int y = region.y0; y < region.y1; y += rows_at_once) {
             const storage* rows[static_cast<std::size_t>(rows_summed + rows_at_once)];
             for (int t = 0; t < rows_summed + rows_at_once; ++t) {
                 const int row = y + t - Kernel::radius;
                 const bool there = row >= 0 && row < from.height();
-                rows[t] = there ? channels_of(from.row(row)) + first : channels_of(nothing) + first % channels;
+                rows[t] = there ? channels_of(from.row(row)) + first : channels_of(room.nothing()) + first % channels;
             }
-            typename pass::element* const sums = line + pass::place(pass::step); // of the column `left`
-            pass::columns(rows, prefetched ? rows + rows_summed : nullptr, sums + pass::place(first - left), last - first);
-            for (int j = 0; j < lesser(rows_at_once, region.y1 - y); ++j) {
-                typename pass::element* const here = sums + j * pass::line_size;
-                pass::clear(here, 0, -left); // and one texel more at the end, which a pair of taps may read without a weight
-                pass::clear(here, lesser(row_size, right) - left, right - left + channels);
-                make_row<Isa, pass>(here, channels_of(to.row(y + j)) + x0, x1 - x0, past_caches, made);
-            }
+            pass::columns(rows, prefetched ? rows + rows_summed : nullptr, room.line(0), room.plane, last - first);
+            for (int j = 0; j < lesser(rows_at_once, region.y1 - y); ++j)
+                for (int x = x0; x < x1; x += pass::piece)
+                    make_row<Isa, pass>(sums(j) + pass::place(x - x0), room.plane, channels_of(to.row(y + j)) + x,
+                                        lesser(pass::piece, x1 - x), past_caches, made);
         }
     }
     if (past_caches) Isa::fence();

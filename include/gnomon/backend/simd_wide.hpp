@@ -12,8 +12,9 @@
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
-/// Rows that are summed side by side, and bytes of a row that a strip takes.
-inline constexpr int rows_at_once = 4, strip_bytes = 4096;
+/// Rows that are summed side by side; the bytes that a strip's sums of one row take, at most; and those of a row that pass the caches by
+/// at a time.
+inline constexpr int rows_at_once = 4, strip_bytes = 32768, piece_bytes = 4096;
 
 /// What is read is called for ahead of time in a map as large as this, and a result as large as that is written past the caches:
 /// both where filtering and receiving together gained by it.
@@ -35,9 +36,9 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
     using numbers = decltype(Isa::repeat(Number{}));
 
     static constexpr int step = Isa::bytes / static_cast<int>(sizeof(Number)); ///< channels that are made at a time
-    static constexpr int strip = strip_bytes / static_cast<int>(sizeof(Number)) / Texel::channels * Texel::channels;
+    static constexpr int planes = 1;                                           ///< that a line consists of
+    static constexpr int piece = piece_bytes / static_cast<int>(sizeof(Number)) / Texel::channels * Texel::channels;
     static constexpr int margin = Kernel::radius * Texel::channels;
-    static constexpr int line_size = step + strip + 2 * margin + step + Texel::channels; ///< for one row, in elements
     static constexpr int taps = 2 * Kernel::radius + 1;
     [[nodiscard]] static constexpr int place(int i) noexcept { return i; }
 
@@ -55,7 +56,7 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
             return Isa::multiply_pairs(Isa::template codes<channel_type>(from), static_cast<double>(channel_type::scale));
     }
 
-    static void columns(const storage* const* rows, const storage* const* ahead, Number* line, int count) noexcept {
+    static void columns(const storage* const* rows, const storage* const* ahead, Number* line, int plane, int count) noexcept {
         for (int at = 0; at < count; at += step) {
             const int i = lesser(at, count - step);
             call_for<Isa>(ahead, i);
@@ -77,19 +78,19 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
                     constexpr std::uint64_t dropped = (1 << 17) - 1;
                     sum[j] = Isa::add_and_mask(sum[j], dropped / 2 + 1, ~dropped);
                 }
-                Isa::store(line + j * line_size + i, sum[j]);
+                Isa::store(line + j * plane + i, sum[j]);
             }
         }
     }
 
-    static void clear(Number* line, int first, int last) noexcept {
+    static void clear(Number* line, int, int first, int last) noexcept {
         for (int i = first; i < last; ++i) {
             const auto code = Texel::clear().template linear<Number>(i % Texel::channels);
             line[i] = static_cast<Number>(by::weights_of::total) / by::unit * code;
         }
     }
 
-    GNOMON_LANES_VOID void row(const Number* line, storage* to) noexcept {
+    GNOMON_LANES_VOID void row(const Number* line, int, storage* to) noexcept {
         constexpr auto whole = static_cast<Number>(by::whole);
         numbers sum = Isa::repeat(Number{});
         GNOMON_UNROLL(16)

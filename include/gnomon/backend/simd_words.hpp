@@ -29,6 +29,8 @@ template <kernel Kernel, int Total> struct neighbouring_weights {
     template <int Bits, int Count = 2> [[nodiscard]] static constexpr std::uint32_t at(int t) noexcept {
         return all<Bits, Count>[static_cast<std::size_t>(t + rows_at_once)];
     }
+    /// Are both weights from tap `t` on zero, for they lie beyond the ends? Asked where all taps are written out, so that it is known.
+    [[nodiscard]] static constexpr bool none(int t) noexcept { return taps + rows_at_once <= 17 && (t + 1 < 0 || t >= taps); }
     static constexpr bool fit_signed_bytes = [] {
         for (const int w : Kernel::weights)
             if (w * (Total / Kernel::total) > 127) return false;
@@ -82,6 +84,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct whole_sums {
                                         : halves{Isa::low_pairs16(above, below), Isa::high_pairs16(above, below)};
             GNOMON_UNROLL(4)
             for (int j = 0; j < rows_at_once; ++j) {
+                if (weights::none(t - j)) continue;
                 const ints w = Isa::repeat32(weights::template at<bytes ? 8 : 16>(t - j));
                 sum[j] = {add(sum[j].low, w, values.low), add(sum[j].high, w, values.high)};
                 Isa::settle(sum[j].low);
@@ -111,43 +114,42 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct pair_filter : 
     using base::bytes, base::in_register, base::margin, base::taps;
 
     static constexpr int step = Isa::bytes; ///< as many sums of 16 bits as two registers hold
-    static constexpr int strip = strip_bytes / 2;
-    static constexpr int plane_size = (step + strip + 2 * margin + step + Texel::channels) / 2;
-    static constexpr int line_size = 2 * plane_size;
+    static constexpr int planes = 2, piece = piece_bytes / 2;
     [[nodiscard]] static constexpr int place(int i) noexcept { return i / 2; }
 
-    static void columns(const storage* const* rows, const storage* const* ahead, std::int16_t* line, int count) noexcept {
+    static void columns(const storage* const* rows, const storage* const* ahead, std::int16_t* line, int plane,
+                        int count) noexcept {
         for (int at = 0; at < count; at += step) {
             const int i = lesser(at, count - step);
             call_for<Isa>(ahead, i);
             ints depth[rows_at_once], mask[rows_at_once];
             if constexpr (!bytes)
                 sum_words(rows, i, depth, mask);
-            else if constexpr (sums_quads<Isa> && weights::fit_signed_bytes)
+            else if constexpr (sums_quads<Isa> && weights::fit_signed_bytes && taps > 11)
                 sum_fours(rows, i, depth, mask);
             else
                 sum_pairs(rows, i, depth, mask);
             GNOMON_UNROLL(4)
             for (int j = 0; j < rows_at_once; ++j) {
-                Isa::store(line + j * line_size + i / 2, depth[j]);
-                Isa::store(line + j * line_size + plane_size + i / 2, mask[j]);
+                Isa::store(line + 2 * j * plane + i / 2, depth[j]);
+                Isa::store(line + (2 * j + 1) * plane + i / 2, mask[j]);
             }
         }
     }
 
-    static void clear(std::int16_t* line, int first, int last) noexcept {
+    static void clear(std::int16_t* line, int plane, int first, int last) noexcept {
         for (int i = first / 2; i < last / 2; ++i) {
             line[i] = base::clear_sum(0);
-            line[i + plane_size] = base::clear_sum(1);
+            line[i + plane] = base::clear_sum(1);
         }
     }
 
-    GNOMON_LANES_VOID void row(const std::int16_t* line, storage* to) noexcept {
+    GNOMON_LANES_VOID void row(const std::int16_t* line, int plane, storage* to) noexcept {
         const ints start = Isa::repeat32(base::half);
         ints depth[2] = {start, start}, mask[2] = {start, start}; // of every even texel, and of every odd one
         GNOMON_UNROLL(8)
         for (int t = 0; t < taps; t += 2) {
-            ints depths = Isa::load(line + t), masks = Isa::load(line + plane_size + t);
+            ints depths = Isa::load(line + t), masks = Isa::load(line + plane + t);
             Isa::settle(depths);
             Isa::settle(masks);
             GNOMON_UNROLL(2)
@@ -183,6 +185,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct pair_filter : 
             const ints depths = Isa::even_pairs8(above, below), masks = Isa::odd_pairs8(above, below);
             GNOMON_UNROLL(4)
             for (int j = 0; j < rows_at_once; ++j) {
+                if (weights::none(t - j)) continue;
                 const ints w = Isa::repeat32(weights::template at<8>(t - j));
                 depth[j] = Isa::add16(depth[j], Isa::multiply_pairs8(w, depths));
                 mask[j] = Isa::add16(mask[j], Isa::multiply_pairs8(w, masks));
@@ -192,7 +195,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct pair_filter : 
         }
     }
 
-    /// Bytes, four rows at a time, where lanes sum four products.
+    /// Bytes, four rows at a time, where lanes sum four products: of many taps, for few do not fill the fours.
     GNOMON_LANES_VOID void sum_fours(const storage* const* rows, int i, ints* depth, ints* mask) noexcept {
         ints sum[rows_at_once][4];
         GNOMON_UNROLL(4)
@@ -251,11 +254,11 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct word_filter : 
 
     static constexpr int step = in_register;
     static constexpr int words = Isa::bytes / 2; ///< elements of the line in a register
-    static constexpr int strip = strip_bytes / 2 / Texel::channels * Texel::channels;
-    static constexpr int line_size = step + strip + 2 * margin + step + Texel::channels;
+    static constexpr int planes = 1, piece = piece_bytes / 2 / Texel::channels * Texel::channels;
     [[nodiscard]] static constexpr int place(int i) noexcept { return i; }
 
-    static void columns(const storage* const* rows, const storage* const* ahead, std::int16_t* line, int count) noexcept {
+    static void columns(const storage* const* rows, const storage* const* ahead, std::int16_t* line, int plane,
+                        int count) noexcept {
         for (int at = 0; at < count; at += step) {
             const int i = lesser(at, count - step);
             call_for<Isa>(ahead, i);
@@ -263,7 +266,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct word_filter : 
             base::sum_columns(rows, i, sum);
             GNOMON_UNROLL(4)
             for (int j = 0; j < rows_at_once; ++j) {
-                std::int16_t* const to = line + j * line_size + i;
+                std::int16_t* const to = line + j * plane + i;
                 if constexpr (bytes) {
                     Isa::store(to, Isa::first_half(sum[j].low, sum[j].high));
                     Isa::store(to + words, Isa::second_half(sum[j].low, sum[j].high));
@@ -274,11 +277,11 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct word_filter : 
         }
     }
 
-    static void clear(std::int16_t* line, int first, int last) noexcept {
+    static void clear(std::int16_t* line, int, int first, int last) noexcept {
         for (int i = first; i < last; ++i) line[i] = base::clear_sum(i % Texel::channels);
     }
 
-    GNOMON_LANES_VOID void row(const std::int16_t* line, storage* to) noexcept {
+    GNOMON_LANES_VOID void row(const std::int16_t* line, int, storage* to) noexcept {
         if constexpr (bytes)
             Isa::store(to,
                        Isa::narrow16(base::template rounded<16>(sum_row(line)), base::template rounded<16>(sum_row(line + words))));

@@ -20,12 +20,12 @@ using line_element =
     std::conditional_t<!Texel::channel_type::whole_codes, double,
                        std::conditional_t<(Texel::linear_scale * kernel_total_limit < 0x1p32), std::uint32_t, std::uint64_t>>;
 
-/// The memory a filter needs beside its images: one line of wide sums, used again for every row. Nothing is read from it that the
-/// same call did not write, so it may hold anything. For a map of `width` texels: filter_scratch_size<Texel, Kernel>(width)
-/// elements.
+/// The memory a filter needs beside its images, in elements, for a map of `width` texels: room for a line of wide sums, or for lanes
+/// that sum four rows at once, in narrower numbers. Nothing is read from it that the same call did not write, so it may hold anything.
 template <texel_format Texel, kernel Kernel> [[nodiscard]] constexpr std::size_t filter_scratch_size(int width) noexcept {
-    return (static_cast<std::size_t>(greater(width, 0)) + 2 * static_cast<std::size_t>(Kernel::radius)) *
-           static_cast<std::size_t>(Texel::channels);
+    const std::size_t line = static_cast<std::size_t>(greater(width, 0)) + 2 * static_cast<std::size_t>(Kernel::radius);
+    // Two lines hold the sums of four rows; the rest, a row of nothing and what registers reach beyond the ends.
+    return (line * 5 / 2 + 512) * static_cast<std::size_t>(Texel::channels);
 }
 
 /// Owns that memory; allocates in its constructor and never again.

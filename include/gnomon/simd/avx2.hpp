@@ -43,11 +43,10 @@ struct avx2 {
         return _mm256_add_epi32(sum, _mm256_madd_epi16(weights, values));
     }
     GNOMON_LANES ints interleave_byte2(ints a, ints b, ints c, ints d) noexcept {
-        const ints ab =
-            _mm256_or_si256(_mm256_srli_epi32(a, 16), _mm256_and_si256(_mm256_srli_epi32(b, 8), _mm256_set1_epi32(0xFF00)));
-        const ints cd =
-            _mm256_or_si256(_mm256_and_si256(c, _mm256_set1_epi32(0xFF0000)), _mm256_slli_epi32(_mm256_srli_epi32(d, 16), 24));
-        return _mm256_or_si256(ab, cd);
+        const ints even = _mm256_blend_epi16(_mm256_srli_epi32(a, 16), b, 0xAA),
+                   odd = _mm256_blend_epi16(_mm256_srli_epi32(c, 16), d, 0xAA);
+        const __m128i in_turn = _mm_setr_epi8(0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15);
+        return _mm256_shuffle_epi8(_mm256_packus_epi16(even, odd), _mm256_broadcastsi128_si256(in_turn));
     }
     GNOMON_LANES ints low_pairs8(ints a, ints b) noexcept { return _mm256_unpacklo_epi8(a, b); }
     GNOMON_LANES ints high_pairs8(ints a, ints b) noexcept { return _mm256_unpackhi_epi8(a, b); }

@@ -75,7 +75,7 @@ template <int Bytes> struct emulated {
             return at<std::uint32_t>(sum, i) + product(pair, 2 * i) + product(pair >> 16, 2 * i + 1);
         });
     }
-    /// Of each 32 bits the third byte, of four registers side by side: a b c d a b c d ... \pre the fourth byte of `a` is 0
+    /// Of each 32 bits the third byte, of four registers side by side: a b c d a b c d ... \pre the fourth is 0
     [[nodiscard]] static ints interleave_byte2(ints a, ints b, ints c, ints d) noexcept {
         const ints* const from[4] = {&a, &b, &c, &d};
         return each<std::uint8_t>([&](int i) { return at<std::uint32_t>(*from[i % 4], i / 4) >> 16; });
