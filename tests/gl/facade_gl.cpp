@@ -2,6 +2,7 @@
 #include "../facade/moving.hpp"
 #include "../facade/suite.hpp"
 #include "../support/gl_backends.hpp"
+#include "../support/gl_report.hpp"
 
 #include <doctest/doctest.h>
 
@@ -47,6 +48,9 @@ TEST_CASE_TEMPLATE("filter has no memory on a GPU: twice is once, and casting be
 }
 TEST_CASE_TEMPLATE("20 frames of moving casters on a GPU equal dense filtering by scalar", Texel, gnomon::rg8, gnomon::rg16,
                    gnomon::rg16f, gnomon::rgb32f, gnomon::rga8, gnomon::rga16f, gnomon::rgba8, gnomon::rgba16) {
-    test::on_gl_with<Texel>(
-        [](const auto& run) { CHECK(test::moving::wrong_frames<Texel, gnomon::binomial<3>>(run, 20, 731) == 0); });
+    test::on_gl_with<Texel>([](const auto& run) {
+        const int wrong = test::moving::wrong_frames<Texel, gnomon::binomial<3>>(run, 20, 731);
+        test::gl_report(gnomon::gl::format_of<Texel>.name, "frames, sparse = dense", 20 * 4, wrong); // maps of four tile sizes
+        CHECK(wrong == 0);
+    });
 }
