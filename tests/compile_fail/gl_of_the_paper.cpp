@@ -1,4 +1,4 @@
-// expect: gnomon: paper_depth_mask is a baseline for comparisons on the CPU; in GL use depth_mask
+// expect: gnomon: paper_depth_mask is a baseline for comparisons on the CPU: in GL use depth_mask
 #include <gnomon/gl/shader_caster.hpp>
 
 #if GNOMON_EXPECT_FAILURE

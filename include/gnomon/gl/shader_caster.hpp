@@ -67,7 +67,7 @@ template <texel_format Texel> [[nodiscard]] std::string vec(const char* kind = "
 template <texel_format Texel> consteval void check_texel() {
     static_assert(
         !std::same_as<typename Texel::representation_type, paper_depth_mask>,
-        "gnomon: paper_depth_mask is a baseline for comparisons on the CPU; in GL use depth_mask, whose clear value is zero");
+        "gnomon: paper_depth_mask is a baseline for comparisons on the CPU: in GL use depth_mask, whose clear value is zero");
 }
 
 /// float gnomon_code(float v), of a share, and float gnomon_complement(float z), of a depth, as Channel::encode and
