@@ -46,8 +46,8 @@ template <texel_format Texel, int Steps> struct depth_steps {
     static constexpr bool told = doubt <= left;
 
     static consteval float threshold() {
-        static_assert(told,
-                      "gnomon: no mask is enough to tell so many depths apart in this texel; take one of more bits, or fewer depths");
+        static_assert(
+            told, "gnomon: no mask is enough to tell so many depths apart in this texel; take one of more bits, or fewer depths");
         return pair ? doubt / left : Texel::channel_type::rounding.absolute / scale;
     }
 };
