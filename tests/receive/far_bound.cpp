@@ -100,6 +100,9 @@ TEST_CASE_TEMPLATE("a fade over nothing, less than nothing or NaN ends the shado
             CAPTURE(fade);
             CHECK(test::same_bits(shadow_as<float>(faint, 0.875f, r), 0.0f));
         }
+        const bool all_doubt = faint.mask() < static_cast<double>(Texel::mask_rounding.absolute);
+        const rule fading{.caster = towards_shadow, .far_bound = towards_shadow, .fade = 0.5f};
+        if (all_doubt) CHECK(test::same_bits(shadow_as<float>(faint, 0.875f, fading), 0.0f));
     }
 }
 

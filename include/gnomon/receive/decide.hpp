@@ -62,7 +62,7 @@ template <texel_format Texel, typename Number, typename Real, typename Depth>
     const Number depth = static_cast<Number>(bound.z);
     const Number passed = let("passed", bound.m * depth - (bound.m - bound.e)); // m (z - far bound)
     const Number share = let("share", bound.m * fade);
-    const auto fades = let("fades", both(fade > Number(0), !same(share, Number(0))));
+    const auto fades = let("fades", both(fade > Number(0), share > Number(0)));
     const Number left = let("left", Number(1) - passed / select(fades, share, Number(1)));
     const auto beyond = Texel::representation_type::behind(bound.e, bound.m, depth);
     return select(let("bounded", both(texel.far_bound() > Number(0), beyond)), select(fades, saturate(left), Number(0)), Number(1));

@@ -56,7 +56,7 @@ float gnomon_shadow(vec4 texel, float z) {
     precise float nearer_z_2 = z - gnomon_bound_nearer;
     precise float passed = m_2 * nearer_z_2 - (m_2 - e_2);
     precise float share = m_2 * gnomon_fade;
-    bool fades = gnomon_fade > 0.0 && !(share <= 0.0 && share >= 0.0);
+    bool fades = gnomon_fade > 0.0 && share > 0.0;
     precise float left = 1.0 - passed / (fades ? share : 1.0);
     bool bounded = texel.z > 0.0 && (nearer_z_2 < 0.5 ? gnomon_exceeds(m_2, nearer_z_2, m_2 - e_2) : gnomon_exceeds(-m_2, 1.0 - nearer_z_2, -e_2));
     precise float kept = bounded ? (fades ? (left > 0.0 ? (left < 1.0 ? left : 1.0) : 0.0) : 0.0) : 1.0;

@@ -49,7 +49,7 @@ float gnomon_shadow(vec4 texel, float z) {
     precise float nearer_z_2 = z + 0.0019608738;
     precise float passed = m_2 * nearer_z_2 - (m_2 - e_2);
     precise float share = m_2 * 0.25;
-    bool fades = !(share <= 0.0 && share >= 0.0);
+    bool fades = share > 0.0;
     precise float left = 1.0 - passed / (fades ? share : 1.0);
     bool bounded = texel.z > 0.0 && (nearer_z_2 < 0.5 ? gnomon_exceeds(m_2, nearer_z_2, m_2 - e_2) : gnomon_exceeds(-m_2, 1.0 - nearer_z_2, -e_2));
     precise float kept = bounded ? (fades ? (left > 0.0 ? (left < 1.0 ? left : 1.0) : 0.0) : 0.0) : 1.0;
