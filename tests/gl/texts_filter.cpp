@@ -195,7 +195,7 @@ void compare(const columns_stage<Number>& columns, const rows_stage<Number>& row
 #define STAGES(number, space, reset)                                                                                               \
     columns_stage<number>{space::columns::main, &space::columns::gnomon_texels, [] { space::columns::gnomon_sum = {}; },           \
                           [] { return widened(space::columns::gnomon_sums); }},                                                    \
-        rows_stage {                                                                                                               \
+        rows_stage<number> {                                                                                                       \
         space::rows::main, &space::rows::gnomon_sums, [] { reset; }, [] { return widened(space::rows::gnomon_texel); }             \
     }
 #define ONE_WORD(space) STAGES(glsl::uint, space, space::rows::gnomon_sum = {})
