@@ -81,7 +81,8 @@ static_assert(executor<std::function<void(int, std::function<void(int)>)>>); // 
 static_assert(!executor<near_miss::no_count> && !executor<near_miss::no_job> && !executor<near_miss::job_without_number> &&
               !executor<near_miss::by_pointer> && !executor<int>);
 
-TEST_CASE("bands of rows are disjoint, in order, and make up all rows, and there are no more than asked for, and none without rows") {
+TEST_CASE(
+    "bands of rows are disjoint, in order, and make up all rows, and there are no more than asked for, and none without rows") {
     for (const int rows : {0, 1, 2, 63, 64, 65, 1000})
         for (const int most : {-1, 0, 1, 2, 3, 7, 64}) {
             int next = 0, calls = 0, empty = 0, unordered = 0;
