@@ -23,9 +23,8 @@ TEST_CASE_TEMPLATE("the GPU as a backend is the free functions", Texel, gnomon::
 
 TEST_CASE_TEMPLATE("the GPU filters any part of the host's image, and writes nothing beside it", Texel, gnomon::rg8,
                    gnomon::rgb16f) {
-    test::in_every_gl_context([](const gl::context& c) {
+    test::on_gl_with<Texel>([](const gl::backend& run) {
         using kernel = gnomon::tent<3>;
-        const gl::backend run(c);
         test::dice roll(751);
         const image<Texel> from = test::noise<Texel>(roll, {40, 30}, 3);
         gnomon::filter_scratch<Texel, kernel> scratch(40);
