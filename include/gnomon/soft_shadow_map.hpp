@@ -25,6 +25,34 @@ concept draws_casters = requires(Draw& draw, image_view<Texel> into) {
     { draw(into).depth } -> std::convertible_to<depth_interval>;
 };
 
+/// What any soft shadow map is asked, whatever it lives in: from its size(), tiles(), soft() and decision.
+template <typename Map> class asked_for_shadow {
+  public:
+    /// Intensity at the centre of texel (x, y), for a receiver at depth `z`; 0 off the map.
+    [[nodiscard]] float shadow(int x, int y, float z) const noexcept {
+        return whole(self().size()).contains(x, y) ? gnomon::shadow(self().soft()(x, y), z, self().decision) : 0.0f;
+    }
+    /// A position is not a texel: ask shadow_at.
+    template <std::floating_point X, std::floating_point Y> float shadow(X x, Y y, float z) const = delete;
+    /// Intensity at a position in texels, blended from four; 0 off the map.
+    [[nodiscard]] float shadow_at(float x, float y, float z) const noexcept {
+        return gnomon::shadow(sample(self().soft(), x, y), z, self().decision);
+    }
+    /// The same for a map_point or anything else with x, y and depth.
+    template <typename Point>
+        requires requires(const Point& p) { static_cast<float>(p.x + p.y + p.depth); }
+    [[nodiscard]] float shadow_at(const Point& p) const noexcept {
+        return shadow_at(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.depth));
+    }
+    /// Could a receiver with these texels and depths be shadowed at all? If not, draw it without shadow code.
+    [[nodiscard]] bool reaches(texel_rect footprint, depth_interval depth = {}) const noexcept {
+        return casters_reach(self().tiles(), footprint, depth, self().decision.caster.towards);
+    }
+
+  private:
+    [[nodiscard]] const Map& self() const noexcept { return static_cast<const Map&>(*this); }
+};
+
 /// A soft shadow map: clear, cast, bound, filter, shadow; and the next frame the same (Salzman 2007).
 ///
 ///     soft_shadow_map<rg8, binomial<3>> map({.width = 512, .height = 512});
@@ -32,7 +60,8 @@ concept draws_casters = requires(Draw& draw, image_view<Texel> into) {
 ///
 /// Casting and filtering cost what the casters cover, not what the map measures. Allocates in its constructor and never again.
 /// Between `filter` and the next `clear` any number of threads may read.
-template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Kernel> Backend = simd<>> class soft_shadow_map {
+template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Kernel> Backend = simd<>>
+class soft_shadow_map : public asked_for_shadow<soft_shadow_map<Texel, Kernel, Backend>> {
   public:
     explicit soft_shadow_map(map_size size, Backend run = {})
         : run_(run), casters_({size.width, size.height}, Texel::clear()), soft_({size.width, size.height}, Texel::clear()),
@@ -103,22 +132,6 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
         filtered_ = tiles_.tiles();
     }
 
-    /// Intensity at the centre of texel (x, y), for a receiver at depth `z`; 0 off the map.
-    [[nodiscard]] float shadow(int x, int y, float z) const noexcept {
-        return whole(size()).contains(x, y) ? gnomon::shadow(soft()(x, y), z, decision) : 0.0f;
-    }
-    /// A position is not a texel: ask shadow_at.
-    template <std::floating_point X, std::floating_point Y> float shadow(X x, Y y, float z) const = delete;
-    /// Intensity at a position in texels, blended from four; 0 off the map.
-    [[nodiscard]] float shadow_at(float x, float y, float z) const noexcept {
-        return gnomon::shadow(sample(soft(), x, y), z, decision);
-    }
-    /// The same for a map_point or anything else with x, y and depth.
-    template <typename Point>
-        requires requires(const Point& p) { static_cast<float>(p.x + p.y + p.depth); }
-    [[nodiscard]] float shadow_at(const Point& p) const noexcept {
-        return shadow_at(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.depth));
-    }
     /// Many points at once.
     void receive(strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
                  strided_span<float> intensity) const noexcept {
@@ -133,11 +146,6 @@ template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Ke
     template <typename Z, typename Intensity, typename On>
     void receive(image_view<Z> z, image_view<Intensity> intensity, On&& on) const {
         gnomon::receive(run_, soft(), z, intensity, decision, on);
-    }
-
-    /// Could a receiver with these texels and depths be shadowed at all? If not, draw it without shadow code.
-    [[nodiscard]] bool reaches(texel_rect footprint, depth_interval depth = {}) const noexcept {
-        return casters_reach(tiles_, footprint, depth, decision.caster.towards);
     }
 
   private:

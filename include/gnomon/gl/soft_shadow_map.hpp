@@ -33,7 +33,9 @@ namespace gnomon::inline GNOMON_BUILD {
 /// Rectangles are collected, and drawn by as few calls as order allows. shadow, receive and soft read the filtered map back, once for
 /// each filter, which waits for the GPU: for tools and tests; an engine's shader reads soft_texture(). Once one of them was called, any
 /// number of threads may read until the next filter.
-template <texel_format Texel, kernel Kernel, gl::state_policy Policy> class soft_shadow_map<Texel, Kernel, gl::backend_of<Policy>> {
+template <texel_format Texel, kernel Kernel, gl::state_policy Policy>
+class soft_shadow_map<Texel, Kernel, gl::backend_of<Policy>>
+    : public asked_for_shadow<soft_shadow_map<Texel, Kernel, gl::backend_of<Policy>>> {
   public:
     using backend_type = gl::backend_of<Policy>;
 
@@ -125,18 +127,6 @@ template <texel_format Texel, kernel Kernel, gl::state_policy Policy> class soft
     /// The same: there is nothing for an executor to do.
     template <executor On> void filter(On&&) noexcept { filter(); }
 
-    [[nodiscard]] float shadow(int x, int y, float z) const noexcept {
-        return whole(size()).contains(x, y) ? gnomon::shadow(soft()(x, y), z, decision) : 0.0f;
-    }
-    template <std::floating_point X, std::floating_point Y> float shadow(X x, Y y, float z) const = delete;
-    [[nodiscard]] float shadow_at(float x, float y, float z) const noexcept {
-        return gnomon::shadow(sample(soft(), x, y), z, decision);
-    }
-    template <typename Point>
-        requires requires(const Point& p) { static_cast<float>(p.x + p.y + p.depth); }
-    [[nodiscard]] float shadow_at(const Point& p) const noexcept {
-        return shadow_at(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.depth));
-    }
     void receive(strided_span<const float> x, strided_span<const float> y, strided_span<const float> z,
                  strided_span<float> intensity) const noexcept {
         gnomon::receive(soft(), x, y, z, intensity, decision);
@@ -150,15 +140,6 @@ template <texel_format Texel, kernel Kernel, gl::state_policy Policy> class soft
     void receive(image_view<Z> z, image_view<Intensity> intensity, On&& on) const {
         gnomon::receive(scalar{}, soft(), z, intensity, decision, on);
     }
-
-    [[nodiscard]] bool reaches(texel_rect footprint, depth_interval depth = {}) const noexcept {
-        return casters_reach(tiles_, footprint, depth, decision.caster.towards);
-    }
-
-    /// What an engine's fragment shaders call, after a glsl_header: gnomon_caster and gnomon_bound; and gnomon_shadow, which decides as
-    /// `decision` does now.
-    [[nodiscard]] static std::string caster_text() { return gl::caster_text<Texel>(); }
-    [[nodiscard]] std::string receiver_text() const { return gl::receive_text<Texel>(decision); }
 
     /// @name Names of GL; 0 where there is a problem, or no texel.
     /// @{
