@@ -26,6 +26,7 @@ ANSWERS = {"if": ["true", "false"], "while": ["false"], "for": ["false"], "requi
 FLIP = {"true": "false", "false": "true"}
 NOT_A_STATEMENT = set("""alignas auto case class concept const constexpr consteval default delete do else enum explicit for friend if inline
     namespace noexcept operator private public requires return static static_assert struct switch template typedef typename using while""".split())
+REQUIREMENT = re.compile(r"^ *\{ .* \} -> .*;$", re.MULTILINE) # of a concept: any number would do as an example
 OPEN, CLOSE = "([{", ")]}"
 
 
@@ -104,6 +105,7 @@ def is_expression(tokens, begin, end):
 def edits(text):
     """(start, end, replacement), one for each mistake."""
     tokens = tokens_of(text)
+    examples = [m.span() for m in REQUIREMENT.finditer(text)]
 
     def span(begin, end, replacement):
         return tokens[begin].start, tokens[end - 1].end, replacement
@@ -111,6 +113,8 @@ def edits(text):
     for i, t in enumerate(tokens):
         before, after = (tokens[i - 1] if i else t), (tokens[i + 1] if i + 1 < len(tokens) else t)
         if t.kind == "number":
+            if any(begin <= t.start < end for begin, end in examples):
+                continue
             yield from (span(i, i + 1, n) for n in other_numbers(t.text))
         elif t.kind == "op":
             if text[t.start - 1].isspace() and text[t.end].isspace():

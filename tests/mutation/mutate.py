@@ -30,8 +30,10 @@ import mutants
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 SANITIZERS = ("-DNDEBUG", "-fsanitize=address,undefined", "-fno-sanitize-recover=all") # asserts have had their say
 FAR = 3.0 # seconds of processor time that a test of another folder may take to be asked: what only such a one sees deserves a test of its own
-# What this machine's compiler does not see, and what runs it.
-ELSEWHERE = {"gnomon/simd/neon.hpp": "./tests/run --matrix tests-aarch64", "gnomon/simd/wasm.hpp": "./tests/run --matrix tests-wasm"}
+# What no test case of this machine judges, and what does.
+ELSEWHERE = {"gnomon/simd/neon.hpp": "it is for another processor: ./tests/run --matrix tests-aarch64",
+             "gnomon/simd/wasm.hpp": "it is for another processor: ./tests/run --matrix tests-wasm",
+             "gnomon/gl/enums.hpp": "tests/architecture/gl_enums.py holds each number against Khronos' header"}
 FOUND_BY_TEST, FOUND_BY_COMPILER, FOUND_BY_CLOCK, SURVIVED = "test", "compiler", "clock", "survived"
 
 
@@ -330,7 +332,7 @@ def chosen(tree, given):
         if not here:
             raise SystemExit(f"mutate.py: no header is {place}")
         for h in [h for h in here if h in ELSEWHERE]:
-            print(f"left out: {h}, which is for another processor; {ELSEWHERE[h]} runs its tests", flush=True)
+            print(f"left out: {h}: {ELSEWHERE[h]}", flush=True)
             here.remove(h)
         wanted += [(h, m) for h in here for m in mutants.mutants_of(tree.text[h]) if line is None or m.line == int(line)]
     if given.sample:

@@ -9,6 +9,7 @@ import mutate
 
 HERE = pathlib.Path(__file__).resolve().parent
 HEADER = """#pragma once
+#include <concepts>
 namespace gnomon {
 constexpr int twice(int a) { return a * 2; }
 constexpr int unproved(int a) { return a + 1; }
@@ -28,6 +29,10 @@ inline int count(int n) {
 template <int N>
     requires(N >= 0)
 struct natural {};
+template <typename T>
+concept number = requires {
+    { T(2) } -> std::same_as<T>;
+};
 } // namespace gnomon
 """
 TEST = """#include <gnomon/small.hpp>
@@ -40,6 +45,7 @@ TEST_CASE("everything small but what is unproved") {
     CHECK(gnomon::count(3) == 3);
     CHECK(gnomon::count(0) == 0);
     gnomon::natural<0>{};
+    static_assert(gnomon::number<int>);
 }
 """
 REFUSAL = """// expect: natural
