@@ -42,7 +42,9 @@ def digest(*parts):
 
 
 def folder_of(header):
-    """Where its tests stand: gnomon/grid/bit_row.hpp is of grid, gnomon/rect.hpp of unit."""
+    """Where its tests stand: gnomon/grid/bit_row.hpp is of grid, gnomon/rect.hpp of unit, gnomon/soft_shadow_map.hpp of facade."""
+    if header == "gnomon/soft_shadow_map.hpp":
+        return "facade"
     return "unit" if header.count("/") == 1 else header.split("/")[1]
 
 
