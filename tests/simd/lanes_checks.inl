@@ -67,8 +67,12 @@ template <typename Isa> int wrong_ints(const memory* m) {
         for (int i = 3; i < 64; i += 4) each.byte[i] = 0;
     memory stored, bytes_in_words = m[1];
     for (int i = 1; i < 64; i += 2) bytes_in_words.byte[i] = 0;
+    alignas(64) unsigned char streamed[64];
     Isa::store(stored.byte, a);
+    Isa::stream(streamed, a);
+    Isa::fence();
     return differing<Isa>(a, e) + (std::memcmp(stored.byte, m[0].byte, static_cast<std::size_t>(Isa::bytes)) != 0) +
+           (std::memcmp(streamed, m[0].byte, static_cast<std::size_t>(Isa::bytes)) != 0) +
            differing<Isa>(Isa::repeat32(word), same::repeat32(word)) +
            differing<Isa>(Isa::exclusive_or(a, b), same::exclusive_or(e, f)) +
            differing<Isa>(Isa::even_pairs8(a, b), same::even_pairs8(e, f)) +
