@@ -104,7 +104,7 @@ valgrind_row() {
 texel *image*,*view*,*span*,a clear texel*
 grid *cleared*,*no depth*,*forgotten*,*without a map*,*a few words*
 filter *without asserts*,*shares nothing*,*the scratch may hold*,*has to be written*,clearing*
-backend *
+backend *partly*off the map*,*in strips*,*past them*,receivers anywhere: every width*,results may take*,*without asserts*
 threads *
 TEXT
     row valgrind "$good" "$bad" 0 $((SECONDS - began))
