@@ -122,6 +122,29 @@ TEST_CASE("what is left of a frame is what it needed and the next one does not")
     CHECK(left > 1000);
 }
 
+TEST_CASE("of the regions of a word of tiles no two could be one") {
+    dice roll(503);
+    int apart = 0, could_be_one = 0;
+    for (int round = 0; round < 1500; ++round) {
+        const extent size{roll(1, 150), roll(1, 50)};
+        const int tile = roll(1, round % 2 == 0 ? 3 : 12), radius = roll(0, 9);
+        const marked before(roll, size, tile, radius, radius), now(roll, size, tile, radius, radius);
+        std::vector<texel_rect> left;
+        for_each_region_left(before.tiles, now.tiles, radius, [&left](texel_rect r) { left.push_back(r); });
+        for (const std::vector<texel_rect>& found : {regions(now.tiles, radius), left})
+            for (const texel_rect& a : found)
+                for (const texel_rect& b : found) {
+                    if (a.x0 / (64 * tile) != b.x0 / (64 * tile)) continue;
+                    const bool beside = a.x1 == b.x0 && a.y0 < b.y1 && b.y0 < a.y1;
+                    const bool below = a.y1 == b.y0 && a.x0 == b.x0 && a.x1 == b.x1;
+                    could_be_one += beside || below;
+                    apart += a.x0 > b.x1 || a.y1 == b.y0;
+                }
+    }
+    CHECK(could_be_one == 0);
+    CHECK(apart > 1000);
+}
+
 TEST_CASE("a lone tile grows into one rectangle, and one that bends is cut where it bends") {
     tile_grid tiles({100, 100}, 10);
     tiles.mark({40, 40, 50, 50}, 3);
