@@ -16,6 +16,7 @@ const char* sentence_of_the_failed = "";
 #include <gnomon/texel/image.hpp>
 
 #include "../support/images.hpp"
+#include "../support/lanes.hpp"
 
 #include <doctest/doctest.h>
 
@@ -84,6 +85,21 @@ TEST_CASE("a filter into its own image or with too narrow a scratch is a wrong c
     CHECK(test::differences(before, wide) == 0);
     filter_region(from.view(), to.view(), {0, 0, 8, 2}, narrow);
     CHECK(complaint() == "gnomon: the filter's scratch is narrower than the region; make it for the map's width");
+}
+
+TEST_CASE("lanes that the processor has not are a wrong call, and the oracle's call then") {
+    const image<rg8> from({64, 2}, rg8::caster(0.5f));
+    image<rg8> to(from.size(), rg8::clear()), expected = to;
+    filter_scratch<rg8, binomial<1>> scratch(64);
+    filter_region(from.view(), expected.view(), {0, 0, 64, 2}, scratch);
+    simd<emulated<16>>{}.filter_region(from.view(), to.view(), {0, 0, 64, 2}, scratch);
+    simd<>{}.filter_region(from.view(), to.view(), {0, 0, 64, 2}, scratch);
+    CHECK(complaint() == "");
+    to = image<rg8>(from.size(), rg8::clear());
+    simd<test::lanes_to_come>{}.filter_region(from.view(), to.view(), {0, 0, 64, 2}, scratch);
+    CHECK(complaint() == "gnomon: this processor has no such lanes as are named; ask best_lanes(), or take simd<>");
+    CHECK(test::differences(to, expected) == 0);
+    CHECK(test::lanes_to_come::loads == 0);
 }
 
 TEST_CASE("a filter of images and tiles that differ in size is a wrong call unless the grid has none") {

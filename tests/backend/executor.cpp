@@ -144,6 +144,37 @@ TEST_CASE("each texel that has to be written is written by one job, once") {
     }
 }
 
+TEST_CASE("of a region that no texel of both images lies in there is no job, and nothing is written") {
+    const image<rg8> casters(size, rg8::caster(0.5f)), before({size.width, 20}, rg8::caster(0.25f));
+    image<rg8> soft = before;
+    band_scratch<rg8, gaussian<4>> scratch(size.width, 3);
+    for (const texel_rect r : {texel_rect{}, {7, 7, 7, 9}, {9, 7, 7, 9}, {400, 0, 500, 90}, {0, 20, 300, 261}}) {
+        int count = 0;
+        gnomon::filter(gnomon::scalar{}, casters.view(), soft.view(), r, scratch, backwards{&count});
+        CHECK(count == 0);
+    }
+    CHECK(test::differences(soft, before) == 0);
+}
+
+TEST_CASE("what marks with depths hold is filtered by an executor as by the same marks without") {
+    dice roll(517);
+    using kernel = gnomon::binomial<3>;
+    image<rg8> casters(size, rg8::clear()), made(size, rg8::clear()), expected(size, rg8::clear());
+    gnomon::depth_tiles marked(size, 16);
+    for (int n = 0; n < 9; ++n) {
+        const texel_rect r = roll.rect(size, 10);
+        const float depth = roll.unit();
+        casters.view().fill(r, rg8::caster(depth));
+        marked.mark(r, {depth, depth}, kernel::radius);
+    }
+    int count = 0;
+    band_scratch<rg8, kernel> scratch(size.width, 5);
+    gnomon::filter(gnomon::simd<>{}, casters.view(), made.view(), marked, scratch, backwards{&count});
+    gnomon::filter(gnomon::scalar{}, casters.view(), expected.view(), marked.tiles(), scratch[0]);
+    CHECK(test::differences(made, expected) == 0);
+    CHECK(test::differences(made, image<rg8>(size, rg8::clear())) > 0);
+}
+
 TEST_CASE("bands are shared out by area: none takes more than its part and a few rows") {
     dice roll(513);
     for (int round = 0; round < 40; ++round) {

@@ -9,8 +9,10 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -198,8 +200,37 @@ TEST_CASE_TEMPLATE("what lanes do not know is left to the oracle: ratios of wide
     CHECK(expected == made);
 }
 
-#if defined(NDEBUG) && GNOMON_X86
-TEST_CASE_TEMPLATE("without asserts, lanes that the processor has not are left to the oracle", Isa, gnomon::avx2, gnomon::avx512) {
+TEST_CASE("what goes past the caches is copied whole, from any place to any, and nothing beside it") {
+    constexpr std::size_t room = 160; // two of the widest registers and a bit
+    std::array<unsigned char, room> from;
+    for (std::size_t i = 0; i < room; ++i) from[i] = static_cast<unsigned char>(i + 1);
+    const auto wrong_by = [&from]<typename Isa>() {
+        int wrong = 0;
+        for (std::size_t bytes = 0; bytes <= 140; ++bytes)
+            for (std::size_t at = 0; at <= 16; ++at) {
+                alignas(64) std::array<unsigned char, room> to{}, expected{};
+                std::memcpy(&expected[at], &from[3], bytes);
+                gnomon::on_any::stream<Isa>(&to[at], &from[3], bytes);
+                wrong += to != expected;
+            }
+        return wrong;
+    };
+    CHECK(wrong_by.operator()<emulated<16>>() == 0);
+    CHECK(wrong_by.operator()<emulated<64>>() == 0);
+}
+
+#ifdef NDEBUG
+TEST_CASE("without asserts, lanes filter nothing with a scratch of nothing, as the oracle does") {
+    const image<rg8> map({70, 9}, rg8::caster(0.5f));
+    image<rg8> made(map.size(), rg8::clear());
+    filter_scratch<rg8, binomial<2>> none;
+    simd<>{}.filter_region(map.view(), made.view(), whole(map.size()), none);
+    CHECK(test::differences(made, image<rg8>(map.size(), rg8::clear())) == 0);
+}
+
+#if GNOMON_X86
+TEST_CASE_TEMPLATE("without asserts, lanes that the processor has not are left to the oracle", Isa, gnomon::avx2, gnomon::avx512,
+                   test::lanes_to_come) {
     dice roll(404);
     const image<rg8> map = test::noise<rg8>(roll, {70, 9}, 2);
     CHECK(differing<Isa, binomial<2>>(map.view(), whole(map.size())) == 0);
@@ -211,7 +242,9 @@ TEST_CASE_TEMPLATE("without asserts, lanes that the processor has not are left t
     gnomon::receive(map.view(), x, x, z, expected);
     gnomon::receive(simd<Isa>{}, map.view(), x, x, z, made);
     CHECK(expected == made);
+    CHECK(test::lanes_to_come::loads == 0);
 }
+#endif
 #endif
 
 TEST_CASE("lanes count in what is quickest and still exact, words or doubles, and in floats where a kernel says fast") {

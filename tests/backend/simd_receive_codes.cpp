@@ -50,6 +50,7 @@ const std::vector<rule>& rules() {
         {.caster = gnomon::towards_shadow},
         {.caster = {.roundings = 1000, .depth = 0.125f}},
         {.caster = {.roundings = 0, .depth = -0.125f}},
+        {.caster = {.depth = -0.125f}},
         {.caster = {.towards = gnomon::bias_towards::shadow, .roundings = 7, .depth = 0.25f}},
         {.caster = {.towards = gnomon::bias_towards::shadow, .roundings = 0, .depth = -2.0f}},
         {.caster = {.depth = 2.0f}},

@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -161,6 +162,51 @@ TEST_CASE("receivers anywhere: every width to 67, any stride, in place, and on a
             }
         CHECK(wrong == 0);
     });
+}
+
+TEST_CASE("receivers anywhere on maps of more texels a side than lanes count are decided as by the oracle") {
+    dice roll(435);
+    constexpr int most = 1 << 21, many = 1 << 22 | 9;
+    std::vector<rg8> memory(2 * many);
+    for (const int last : {most, many})
+        for (int i = 2 * last - 18; i < 2 * last; ++i) memory[static_cast<std::size_t>(i)] = test::any_caster<rg8>(roll);
+    const auto near_end = [](int size) { // two texels of the other side, and floats a half apart of this one
+        std::vector<float> at;
+        for (int i = -18; i <= 4; ++i) at.push_back(static_cast<float>(size) + static_cast<float>(i) * 0.5f);
+        return at;
+    };
+    const auto decided_as_by_the_oracle = [](image_view<const rg8> map, const std::vector<float>& x, const std::vector<float>& y) {
+        const std::vector<float> z(x.size(), 0.9f);
+        std::vector<float> expected(x.size()), made(x.size());
+        gnomon::receive(map, x, y, z, expected);
+        int wrong = 0;
+        for_each_isa([&]<typename Isa>() {
+            gnomon::receive(simd<Isa>{}, map, x, y, z, made);
+            wrong += expected != made;
+        });
+        return wrong == 0 && std::any_of(expected.begin(), expected.end(), [](float dark) { return dark > 0.0f; });
+    };
+    for (const int size : {most, many}) {
+        const std::vector<float> along = near_end(size), across(along.size(), 0.75f);
+        CHECK(decided_as_by_the_oracle({memory.data(), {size, 2}}, along, across));
+        CHECK(decided_as_by_the_oracle({memory.data(), {2, size}}, across, along));
+    }
+}
+
+TEST_CASE("lanes blend on maps of 2 to 2^21 texels a side whose offsets fit 32 bits, and for rules of one rounding at most") {
+    const rg8 memory{}; // that of offsets beyond 32 bits is not to be had, and none is read
+    const auto serves = [&memory](extent size, std::ptrdiff_t stride, int roundings = 1) {
+        return gnomon::on_any::blended_decision<gnomon::emulated<16>, rg8, float, float>::serves(
+            {&memory, size, stride}, {.caster = {.roundings = roundings}});
+    };
+    constexpr int most = 1 << 21;
+    for (const int sign : {1, -1}) {
+        CHECK((serves({2, 4}, sign * 0x1FFFFFFF) && !serves({2, 4}, sign * 0x20000000)));
+        CHECK((serves({2, 2}, sign * 4) && !serves({1, 2}, sign * 4) && !serves({2, 1}, sign * 4)));
+        CHECK((serves({most, 2}, sign * 4) && !serves({most + 1, 2}, sign * 4)));
+        CHECK((serves({2, most}, sign * 4) && !serves({2, most + 1}, sign * 4)));
+        CHECK((serves({2, 2}, sign * 4, 0) && serves({2, 2}, sign * 4, 1) && !serves({2, 2}, sign * 4, 2)));
+    }
 }
 
 TEST_CASE("lanes read nothing beside the map: its memory ends where its last texel does") {

@@ -149,8 +149,8 @@ TEST_CASE_TEMPLATE("what is drawn into cast is what casters and mark make by han
     CHECK(test::differences<Texel>(map.casters(), gnomon::image<Texel>(map.size(), Texel::clear()).view(), whole(map.size())) == 0);
 }
 
-TEST_CASE_TEMPLATE("sample, receive and receive_row give the bits of the one-point forms", Texel, gnomon::rg8, gnomon::rgba16,
-                   gnomon::rgb16f, gnomon::rga32f, test::ratio_rgba16, test::paper32f) {
+TEST_CASE_TEMPLATE("sample, receive and receive_row give the bits of the one-point forms, and so does an image of receivers", Texel,
+                   gnomon::rg8, gnomon::rgba16, gnomon::rgb16f, gnomon::rga32f, test::ratio_rgba16, test::paper32f) {
     suite::many_are_as_one<Texel>(run);
 }
 

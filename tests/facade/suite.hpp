@@ -191,7 +191,7 @@ template <typename Backend> void reaches_asks_tiles(const Backend& run) {
     CHECK(map.reaches({10, 10, 40, 40}, {0.4f, 0.6f}) == gnomon::casters_reach(map.tiles(), {10, 10, 40, 40}, {0.4f, 0.6f}));
 }
 
-/// sample, receive and receive_row give the bits of the one-point forms.
+/// sample and every receive give the bits of the one-point forms.
 template <typename Texel, typename Backend> void many_are_as_one(const Backend& run) {
     dice roll(142);
     map_on<Texel, Backend> map({.width = 50, .height = 40, .tile = 8}, run);
@@ -215,6 +215,12 @@ template <typename Texel, typename Backend> void many_are_as_one(const Backend& 
         for (int i = 0; i < 50; ++i)
             wrong += !same_bits(row[static_cast<std::size_t>(i)], map.shadow(i, line, z[static_cast<std::size_t>(i)]));
     }
+    gnomon::image<float> depths(map.size()), image_of_rows(map.size());
+    for_each_texel(whole(map.size()), [&](int x_of, int y_of) { depths(x_of, y_of) = roll.unit(); });
+    map.receive(depths.view(), image_of_rows.view(), gnomon::sequential{});
+    for_each_texel(whole(map.size()), [&](int x_of, int y_of) {
+        wrong += !same_bits(image_of_rows(x_of, y_of), map.shadow(x_of, y_of, depths(x_of, y_of)));
+    });
     for (int i = 0; i < 40; ++i)
         wrong += !same_bits(map.shadow(20, i, 0.9f), map.shadow_at(20.5f, static_cast<float>(i) + 0.5f, 0.9f));
     CHECK(wrong == 0);

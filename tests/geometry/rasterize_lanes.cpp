@@ -152,6 +152,23 @@ TEST_CASE("lanes draw what the scalar rasteriser draws, in its order and to the 
     CHECK(partly > 80);
 }
 
+#if defined(NDEBUG) && GNOMON_X86
+TEST_CASE_TEMPLATE("without asserts, triangles for lanes that the processor has not are drawn all the same", Isa, avx2, avx512,
+                   test::lanes_to_come) {
+    dice roll{std::mt19937_64(39)};
+    std::size_t texels = 0;
+    for (int i = 0; i < 20; ++i) {
+        const light_frame light = any_light(roll, i);
+        const mesh_data m = any_mesh(roll, i);
+        const record expected = draw(scalar{}, m.mesh(), light, everywhere, faces::both);
+        CHECK(draw(simd<Isa>{}, m.mesh(), light, everywhere, faces::both) == expected);
+        texels += expected.texels.size();
+    }
+    CHECK(texels > 1000);
+    CHECK(test::lanes_to_come::loads == 0);
+}
+#endif
+
 TEST_CASE("lanes skip the triangles that a place for them does not touch, as the scalar rasteriser does") {
     dice roll{std::mt19937_64(32)};
     std::size_t skipped = 0;

@@ -3,7 +3,7 @@
 
 #include "images.hpp"
 
-#include <gnomon/simd/isa.hpp>
+#include <gnomon/backend/reconstruct.hpp>
 
 namespace test {
 
@@ -22,6 +22,15 @@ template <typename F> void for_each_isa(F&& f) {
 #endif
 }
 
+/// Lanes that no processor has. They would do, and tell if they were asked.
+struct lanes_to_come : gnomon::emulated<16> {
+    static inline int loads = 0;
+    template <typename T> static auto load(const T* from) noexcept {
+        ++loads;
+        return emulated::load(from);
+    }
+};
+
 /// Any bits at all, so for half and float infinities, NaN and numbers beyond [0, 1] too.
 template <typename Texel> void fill_with_bits(dice& roll, gnomon::image_view<Texel> to) {
     for_each_texel(whole(to.size()), [&](int x, int y) {
@@ -33,3 +42,7 @@ template <typename Texel> void fill_with_bits(dice& roll, gnomon::image_view<Tex
     });
 }
 } // namespace test
+
+template <>
+inline constexpr gnomon::cpu_level gnomon::detail::level_needed<test::lanes_to_come> =
+    static_cast<gnomon::cpu_level>(static_cast<int>(gnomon::cpu_level::avx512) + 1);

@@ -50,8 +50,8 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     [[nodiscard]] static bool serves(image_view<const Texel> map, const rule& r) noexcept {
         constexpr int most = 1 << 21;
         const std::ptrdiff_t row = map.stride() < 0 ? -map.stride() : map.stride();
-        return r.caster.roundings >= 0 && r.caster.roundings <= 1 && map.width() >= 2 && map.height() >= 2 && map.width() <= most &&
-               map.height() <= most && row <= 0x7FFFFFFF / map.height();
+        return r.caster.roundings <= 1 && map.width() >= 2 && map.height() >= 2 && map.width() <= most && map.height() <= most &&
+               row <= 0x7FFFFFFF / map.height();
     }
     [[nodiscard]] static blended_decision of(image_view<const Texel> map, const rule& r) noexcept {
         const biased<> moved = apply<Texel>(r.caster, 0.0, 0.0, 0.0f);

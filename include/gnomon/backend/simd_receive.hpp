@@ -69,14 +69,13 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     }
 
     /// m z + (e-m) > 0. Codes, and the halves they are biased by, keep e-m exact, and the product is asked for its sign.
-    GNOMON_LANES bool decided_codes(const decision& by, const floats& e, const floats& m, const float* depths,
-                                    masks& shadowed) noexcept {
+    GNOMON_LANES masks decided_codes(const decision& by, const floats& e, const floats& m, const float* depths) noexcept {
         const floats depth = Isa::load(depths), rest = Isa::subtract(e, m);
         // Doubled they are whole, and times the least depth there is still something.
-        shadowed = Isa::positive(Isa::add(m, m), Isa::subtract(depth, by.nearer), Isa::add(rest, rest));
+        masks shadowed = Isa::positive(Isa::add(m, m), Isa::subtract(depth, by.nearer), Isa::add(rest, rest));
         shadowed = Isa::both(shadowed, Isa::greater(depth, Isa::repeat(0.0f)));
         if (by.by_rule->lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
-        return true;
+        return shadowed;
     }
     /// For z < 1/2 the same: e-m is exact if m/2 <= e <= 2m, and if e is less, m z < m/2 is less than m-e either way, if more, all from
     /// z = -1 on are shadowed. Else m (z-1) + e > 0, where z-1 is exact up to 2^24, and beyond that everything is behind every caster.
@@ -130,8 +129,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         if constexpr (std::same_as<Depth, std::uint16_t>) {
             if (!decided_sums(by, e, m, there, depths, shadowed)) return false;
         } else if constexpr (whole_codes) {
-            if (!decided_codes(by, e, m, depths, shadowed)) return false;
-            shadowed = Isa::both(shadowed, there);
+            shadowed = Isa::both(decided_codes(by, e, m, depths), there);
         } else {
             if (!decided_floats(by, e, m, there, depths, shadowed)) return false;
         }

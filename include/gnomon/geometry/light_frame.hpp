@@ -170,11 +170,12 @@ inline light_frame light_frame::from_matrix(const glm::dmat4& world_to_clip, ext
         if (!(w.w > 0.0)) return {};
         return {detail::from_rows(x / w.w, y / w.w, z / w.w, {0.0, 0.0, 0.0, 1.0}), size, 1.0, 1.0};
     }
-    // z = a W + b, if the depth planes stand across the axis: then z is 0 where W = -b / a, and W where W = b / (1 - a). Planes that
-    // are behind the eye, in the wrong order or at infinity are none for a frame.
+    // z = a W + b, if the depth planes stand across the axis: then z is 0 where W = -b / a, and W where W = b / (1 - a). Both are
+    // before the eye and in this order iff b < 0 and a > 1, and at a = 1 the far plane is at infinity, which is none for a frame.
     const double a = glm::dot(glm::dvec3(z), axis) / glm::dot(axis, axis), b = z.w - a * w.w;
     const glm::dvec3 oblique = glm::dvec3(z) - a * axis;
     if (!(glm::dot(oblique, oblique) <= 1e-10 * glm::dot(axis, axis))) return {};
+    if (!(b < 0.0 && a > 1.0)) return {};
     const double near_w = -b / a, far_w = b / (1.0 - a);
     return {detail::from_rows(x, y, (w - glm::dvec4(0.0, 0.0, 0.0, near_w)) / (far_w - near_w), w), size, near_w, far_w};
 }

@@ -188,11 +188,11 @@ struct touched_texels {
     }
 };
 
-template <marked_texels Where> [[nodiscard]] constexpr bool touches(const Where& where, texel_rect r) {
-    if constexpr (requires { where.touches(r); })
-        return where.touches(r);
-    else
-        return where(r);
+template <marked_texels Where> [[nodiscard]] constexpr bool touches(const Where& where, texel_rect r) { return where(r); }
+template <marked_texels Where>
+    requires requires(const Where& where, texel_rect r) { where.touches(r); }
+[[nodiscard]] constexpr bool touches(const Where& where, texel_rect r) {
+    return where.touches(r);
 }
 
 /// Calls run(depth, y, x0, x1) for every run of texels of `target` that a triangle covers.

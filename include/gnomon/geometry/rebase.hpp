@@ -40,6 +40,7 @@ namespace detail {
 /// or to a spot light's near plane.
 /// The world's origin for an invalid frame.
 [[nodiscard]] inline glm::dvec3 rebase_origin(const light_frame& light) noexcept {
+    if (!light.valid()) return glm::dvec3(0.0);
     const glm::dmat4& m = light.matrix();
     const double range = light.far_w() - light.near_w();
     const glm::dvec3 corner(light.size().width, light.size().height, 1.0);

@@ -106,7 +106,7 @@ class grown_word {
         spans.add(from_, at_.left, from_, to_);
         for (bit_word left = at_.held; left != 0;) {
             const int first = std::countr_zero(left), last = first + std::countr_one(left >> first);
-            left &= last == bits_per_word ? 0 : ~bit_word{0} << last;
+            left = last == bits_per_word ? 0 : left >> last << last;
             // Where no guard band reached a neighbour, no radius does.
             const bool before = first == 0 || (at_.reached >> (first - 1) & 1) != 0;
             const bool after = last == bits_per_word || (at_.reached >> last & 1) != 0;
