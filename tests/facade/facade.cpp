@@ -154,6 +154,10 @@ TEST_CASE_TEMPLATE("sample, receive and receive_row give the bits of the one-poi
     suite::many_are_as_one<Texel>(run);
 }
 
+TEST_CASE_TEMPLATE("what an executor hands out as jobs gives the bits of the forms without", Texel, gnomon::rg8, gnomon::rgba32f) {
+    suite::jobs_are_as_one<Texel>(run);
+}
+
 TEST_CASE("the decision can be changed between reads, and acts on all of them") { suite::decision_acts_on_all(run); }
 
 TEST_CASE("a receiver that the map does not reach is lit, and reaches asks its tiles") { suite::reaches_asks_tiles(run); }

@@ -226,6 +226,27 @@ template <typename Texel, typename Backend> void many_are_as_one(const Backend& 
     CHECK(wrong == 0);
 }
 
+/// What an executor hands out as jobs are the bits of the forms without.
+template <typename Texel, typename Backend> void jobs_are_as_one(const Backend& run) {
+    dice roll(145), again(145);
+    map_on<Texel, Backend> map({.width = 50, .height = 40, .tile = 8}, run), by_jobs({.width = 50, .height = 40, .tile = 8}, run);
+    populate(map, roll);
+    populate(by_jobs, again);
+    map.filter();
+    by_jobs.filter(gnomon::sequential{});
+    CHECK(same_bits_in(map, by_jobs));
+    gnomon::image<float> z(map.size()), intensity(map.size(), 7.0f);
+    for_each_texel(whole(map.size()), [&](int x, int y) { z(x, y) = roll.unit(); });
+    map.receive(z.view(), intensity.view(), gnomon::sequential{});
+    int wrong = 0, dark = 0;
+    for_each_texel(whole(map.size()), [&](int x, int y) {
+        wrong += !same_bits(intensity(x, y), map.shadow(x, y, z(x, y)));
+        dark += intensity(x, y) > 0.0f;
+    });
+    CHECK(wrong == 0);
+    CHECK(dark > 50);
+}
+
 /// The decision can be changed between reads, and acts on all of them.
 template <typename Backend> void decision_acts_on_all(const Backend& run) {
     map_on<gnomon::rg8, Backend> map({.width = 40, .height = 30, .tile = 8}, run);

@@ -156,9 +156,43 @@ TEST_CASE("a lost context says so where it can, and GL's errors come as sentence
     test::fake_gl web("OpenGL ES 3.0 (WebGL 2.0)");
     const auto w = *gl::context::of(web.table);
     CHECK_FALSE(w.lost());
+    web.errors = {gl::enums::context_lost_webgl};
+    CHECK(w.lost());
+    web.errors = {gl::enums::out_of_memory};
+    CHECK_FALSE(w.lost());
     web.lost = true;
     CHECK(w.lost());
     CHECK(fake.wrong + web.wrong == "");
+}
+
+TEST_CASE("GL before 4.5 is never lost, for it cannot tell, and its error flags stay the host's") {
+    test::fake_gl fake("4.4");
+    const auto c = *gl::context::of(fake.table);
+    fake.lost = true;
+    fake.calls.clear();
+    CHECK_FALSE(c.lost());
+    CHECK(fake.calls.empty());
+}
+
+TEST_CASE("an extension that a driver counts and does not name is none") {
+    test::fake_gl fake("OpenGL ES 3.0", {"GL_EXT_texture_norm16"});
+    fake.put(gl::enums::num_extensions, 0, 3);
+    const auto c = *gl::context::of(fake.table);
+    CHECK(fake.calls["GetStringi"] == 3);
+    CHECK(c.norm16);
+    CHECK_FALSE(c.color_buffer_half);
+}
+
+TEST_CASE("an extension whose function the loader does not find is not used") {
+    const auto without = [](const char* version, const char* extension, auto function) {
+        test::fake_gl fake(version, {extension});
+        fake.table.*function = nullptr;
+        const auto made = gl::context::of(fake.table);
+        REQUIRE(made);
+        return made->clip_control;
+    };
+    CHECK(without("3.3", "GL_ARB_clip_control", &gl::functions::ClipControl) == gl::clip_control::none);
+    CHECK(without("OpenGL ES 3.0", "GL_EXT_clip_control", &gl::functions::ClipControlEXT) == gl::clip_control::none);
 }
 
 TEST_CASE("functions that would go before their context are refused") {

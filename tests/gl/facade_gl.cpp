@@ -36,6 +36,7 @@ TEST_CASE("a map on a GPU is asked for points, rows and reach as any other is, a
         suite::reached_under_a_bias(run);
         suite::decision_acts_on_all(run);
         suite::many_are_as_one<gnomon::rgba16>(run);
+        suite::jobs_are_as_one<gnomon::rg16>(run);
     });
 }
 TEST_CASE_TEMPLATE("clear forgets every caster on a GPU, but the filtered map stays readable until the next filter", Texel,

@@ -32,6 +32,7 @@ inline std::vector<std::pair<std::string, std::string>> golden_texts() {
         {"receive_rg16f", receive_text<rg16f>() + std::string(receive_screen_main_text)},
         {"receive_rg32f", receive_text<rg32f>()},
         {"receive_tm8", receive_text<tm8>()},
+        {"receive_rgb8", receive_text<rgb8>()},
         {"receive_rgba8_fading", receive_text<rgba8>(fading)},
         {"receive_rgb16f_fading", receive_text<rgb16f>(fading)},
         {"receive_rgb8_uniforms", receive_text<rgb8>(shader_rule<rgb8>::uniforms())},

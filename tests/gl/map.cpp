@@ -41,6 +41,12 @@ template <typename Map> float frame(Map& map, int shift = 0) {
     return map.shadow(20 + shift, 20, 0.9f);
 }
 
+/// What an engine's draw returns.
+struct touched {
+    texel_rect texels;
+    gnomon::depth_interval depth;
+};
+
 bool says(const gl::problem& why, const char* part) { return why.sentence.find(part) != std::string::npos; }
 
 static_assert(!std::is_copy_constructible_v<map_of<gnomon::rg8>> && std::is_nothrow_move_constructible_v<map_of<gnomon::rg8>>);
@@ -57,6 +63,11 @@ TEST_CASE("a map that cannot be made says why, keeps nothing of GL, and is lit e
             CHECK(frame(map) <= 0.0f);
             CHECK(map.soft_texture() == 0);
             CHECK(map.caster_framebuffer() == 0);
+            map.cast([](const gl::map_targets&) {
+                FAIL("draws into nothing");
+                return touched{};
+            });
+            map.bound([](const gl::map_targets&) { FAIL("bounds nothing"); });
             CHECK(b.fake.calls.empty());
         }
         CHECK(b.fake.alive() == 0);
@@ -82,9 +93,22 @@ TEST_CASE("a map that cannot be made says why, keeps nothing of GL, and is lit e
         b.fake.allocations_until_failure = made;
         try_one(b, {64, 64}, "GL_OUT_OF_MEMORY");
     }
-    b.fake.allocations_until_failure = 5;
+    b.fake.allocations_until_failure = -1;
+    const auto fails = [&](const char* name, int calls, const char* part) {
+        for (int made = 0; made < calls; ++made) {
+            CAPTURE(made);
+            b.fake.failing = {{name, made}};
+            try_one(b, {64, 64}, part);
+        }
+        b.fake.failing.clear();
+    };
+    fails("GenVertexArrays", 1, "no name for a vertex array");
+    fails("CreateProgram", 5, "no name for a program"); // one for each pass
+    fails("GenFramebuffers", 3, "no name for a framebuffer");
+    fails("ClearBufferfv", 3, "clearing a new map: GL_OUT_OF_MEMORY");
     const map_of<gnomon::rgba16> map({64, 64}, gl::backend(b.context));
     CHECK(map.problem().sentence == "");
+    CHECK(b.fake.objects["program"].size() == 5);
 }
 
 TEST_CASE("a map allocates nothing of GL after it was made, and all is gone when it is") {
@@ -127,6 +151,7 @@ TEST_CASE("an empty frame after an empty frame calls no function of GL, nor does
     b.fake.calls.clear();
     map.clear();
     map.bound({0, 0, 64, 64}, 0.5f);
+    map.bound([](const gl::map_targets&) { FAIL("bounds the shadow of nothing"); });
     map.filter();
     CHECK(b.fake.calls.empty());
     for (const gnomon::map_size size : {gnomon::map_size{0, 64}, {64, 0}, {-3, -3}}) {
@@ -237,6 +262,8 @@ TEST_CASE("a map that forgets a lost context calls nothing of GL again, nor does
     std::optional<map_of<gnomon::rgba8>> map;
     map.emplace(gnomon::map_size{64, 64, 8}, *run);
     map->cast({1, 1, 9, 9}, 0.5f);
+    map->filter(); // and nobody read it
+    map->cast({1, 1, 9, 9}, 0.5f);
     const std::vector<float> z(4, 0.5f);
     std::vector<float> intensity(4);
     gnomon::receive(*run, std::vector<gnomon::rg8>(4), z, intensity); // has programs of its own
@@ -245,6 +272,7 @@ TEST_CASE("a map that forgets a lost context calls nothing of GL again, nor does
     b.fake.calls.clear();
     map->forget();
     CHECK(says(map->problem(), "lost"));
+    CHECK(map->shadow(5, 5, 0.9f) <= 0.0f);
     CHECK(frame(*map) <= 0.0f);
     map.reset();
     run.reset();
@@ -255,10 +283,6 @@ TEST_CASE("an engine's own draws find their framebuffer bound, and depths, blend
     using namespace gl::enums;
     bench b("3.3");
     map_of<gnomon::rgb8> map({64, 48, 8}, gl::backend(b.context));
-    struct touched {
-        texel_rect texels;
-        gnomon::depth_interval depth;
-    };
     int calls = 0;
     const auto state = [&](unsigned name) { return static_cast<unsigned>(b.fake.get(name)[0]); };
     map.cast({1, 1, 2, 2}, 0.5f);

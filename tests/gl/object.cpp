@@ -1,5 +1,6 @@
 #include <gnomon/gl/object.hpp>
 #include <gnomon/gl/program.hpp>
+#include <gnomon/gl/transfer.hpp>
 
 #include "../support/fake_gl.hpp"
 
@@ -129,6 +130,29 @@ TEST_CASE("an incomplete framebuffer is reported and leaks nothing") {
     CHECK(gl::make_framebuffer(b.context, {color.name()}).error().sentence ==
           "gnomon: a framebuffer is incomplete, status 36061; these formats cannot be drawn into here");
     CHECK(b.fake.objects["framebuffer"].empty());
+    b.fake.framebuffer_status = gl::enums::framebuffer_complete;
+    b.fake.failing = {{"FramebufferTexture2D", 0}};
+    CHECK(gl::make_framebuffer(b.context, {color.name()}).error().sentence == "gnomon: a framebuffer: GL_OUT_OF_MEMORY");
+    CHECK(b.fake.objects["framebuffer"].empty());
+}
+
+TEST_CASE("a framebuffer reads from its first colour, and one of depth alone from nowhere") {
+    bench b("3.3");
+    CHECK(gl::make_framebuffer(b.context, {7u}, 8u));
+    CHECK(b.fake.read_buffer == gl::enums::color_attachment0);
+    CHECK(gl::make_framebuffer(b.context, {}, 8u));
+    CHECK(b.fake.read_buffer == gl::enums::none);
+}
+
+TEST_CASE("a program of which GL makes a part leaks nothing") {
+    bench b("3.3");
+    for (const auto& [name, made] : {std::pair{"CreateShader", 0}, {"CreateShader", 1}, {"CreateProgram", 0}}) {
+        b.fake.failing = {{name, made}};
+        CHECK(gl::make_program(b.context, "v", "f").error().sentence ==
+              "gnomon: GL gave no name for a program; the context is lost, or another one is current");
+        CHECK(b.fake.alive() == 0);
+    }
+    CHECK(b.fake.wrong == "");
 }
 
 TEST_CASE("a rejected shader brings the driver's log, and leaks nothing") {
@@ -136,13 +160,29 @@ TEST_CASE("a rejected shader brings the driver's log, and leaks nothing") {
     b.fake.shader_log = "0:3(1): syntax error, unexpected end of file\n\n";
     CHECK(gl::make_program(b.context, "v", "f").error().sentence ==
           "gnomon: the driver rejects the vertex shader: 0:3(1): syntax error, unexpected end of file");
+    b.fake.shader_log = "one line\nand another \n ";
+    CHECK(gl::make_program(b.context, "v", "f").error().sentence ==
+          "gnomon: the driver rejects the vertex shader: one line\nand another");
     b.fake.shader_log = "\n";
     CHECK(gl::make_program(b.context, "v", "f").error().sentence == "gnomon: the driver rejects the vertex shader: ");
     b.fake.shader_log.clear();
     b.fake.link_log = "no main";
     CHECK(gl::make_program(b.context, "v", "f").error().sentence == "gnomon: the driver does not link the program: no main");
+    b.fake.failing = {{"GetProgramiv", 0}}; // has no log either
+    CHECK(gl::make_program(b.context, "v", "f").error().sentence ==
+          "gnomon: the driver does not link the program: the driver says nothing");
     CHECK(b.fake.alive() == 0);
     CHECK(b.fake.wrong == "");
+}
+
+TEST_CASE("reading a part of nothing calls nothing of GL") {
+    bench b("3.3");
+    gl::texel_reader<gnomon::rg8> reader({8, 8});
+    gnomon::image<gnomon::rg8> to({8, 8});
+    b.fake.calls.clear();
+    for (const gnomon::texel_rect part : {gnomon::texel_rect{3, 3, 3, 8}, {3, 3, 8, 3}, {5, 5, 2, 8}, {8, 0, 16, 8}})
+        reader.read(b.context, 1, to.view(), part);
+    CHECK(b.fake.calls.empty());
 }
 
 TEST_CASE("of a lost context nothing is had, and each maker says so") {

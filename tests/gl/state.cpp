@@ -179,3 +179,29 @@ TEST_CASE("a context with a mode for each face of a polygon has both back") {
     }
     CHECK(fake.get(enums::polygon_mode) == test::fake_gl::values{double{enums::line}, double{enums::fill}});
 }
+
+TEST_CASE("a context that answers with one mode for all polygons has it back for both faces") {
+    test::fake_gl fake("3.3");
+    const gl::context c = *gl::context::of(fake.table);
+    fake.put(enums::polygon_mode, 0, enums::line);
+    {
+        const gl::state_guard<gl::state_policy::restore> guard(c);
+        CHECK(fake.get(enums::polygon_mode)[0] < enums::fill + 1);
+    }
+    CHECK(fake.get(enums::polygon_mode) == test::fake_gl::values{double{enums::line}, double{enums::line}});
+}
+
+TEST_CASE("of a context with more of everything than there is room for, a restoring guard keeps the first") {
+    test::fake_gl fake("4.5");
+    for (const unsigned limit : {enums::max_draw_buffers, enums::max_viewports, enums::max_clip_distances}) fake.put(limit, 0, 64);
+    const gl::context c = *gl::context::of(fake.table);
+    c.gl->Enable(enums::clip_distance0);
+    fake.calls.clear();
+    {
+        const gl::state_guard<gl::state_policy::restore> guard(c, 8);
+    }
+    CHECK(fake.calls["ColorMaski"] == 16);
+    CHECK(fake.calls["DepthRangeIndexed"] == 16);
+    CHECK(fake.calls["BindSampler"] == 2 * 8);
+    CHECK(fake.get(enums::clip_distance0)[0] > 0);
+}

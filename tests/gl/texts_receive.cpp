@@ -29,6 +29,9 @@ namespace rg32f_text {
 namespace tm8_text {
 #include "golden/receive_tm8.glsl"
 }
+namespace rgb8_text {
+#include "golden/receive_rgb8.glsl"
+}
 namespace rgba8_text {
 #include "golden/receive_rgba8_fading.glsl"
 }
@@ -178,6 +181,20 @@ TEST_CASE("a fade past the far bound is in GLSL what it is on the CPU, within 2^
         holds(test::filtered(caster16, roll(1, 49), 49, test::any_caster<rgb16f>(roll)), TEXT(rgb16f_text));
     }
     CHECK(wrong.report() == "");
+}
+
+TEST_CASE("without a fade a shadow ends at its far bound in GLSL as on the CPU, in every bit") {
+    test::dice roll(559);
+    test::sweep wrong;
+    int bounded = 0;
+    for (int i = 0; i < 30'000; ++i) {
+        const auto texel = test::filtered(test::any_caster<rgb8>(roll), roll(1, 49), 49, test::any_caster<rgb8>(roll));
+        const float z = 1.25f * roll.unit(), expected = shadow(texel, z);
+        wrong.unless(test::same_bits(TEXT(rgb8_text)(texel, z), expected), texel.stored[0], texel.stored[1], texel.stored[2], z);
+        bounded += !test::same_bits(expected, shadow(texel, z, rule{.fade = 1.0f}));
+    }
+    CHECK(wrong.report() == "");
+    CHECK(bounded > 1000);
 }
 
 TEST_CASE("a rule in uniforms decides as the same rule printed") {

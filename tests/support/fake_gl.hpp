@@ -56,9 +56,13 @@ class fake_gl {
     std::vector<unsigned> errors = {};                      ///< answers of GetError to come
     bool lost = false;                                      ///< every call answers with nothing, GetError with CONTEXT_LOST
     int allocations_until_failure = -1;
+    std::map<std::string, int> failing = {}; ///< "GenBuffers", 2: after two it does nothing, and leaves GL_OUT_OF_MEMORY
     unsigned framebuffer_status = gnomon::gl::enums::framebuffer_complete;
     std::string shader_log = {}; ///< a shader that is compiled while this is set is rejected
     std::string link_log = {};
+    std::vector<std::string> sources = {}; ///< of shaders
+    std::set<std::string> uniforms = {};   ///< whose locations were asked for
+    unsigned read_buffer = 0;              ///< that was set last
 
     /// As a loader: fake.loader()("glClear").
     [[nodiscard]] auto loader() const {
@@ -112,6 +116,10 @@ class fake_gl {
         ++calls[name];
         order.push_back(name);
         if (allowed_.find(" gl" + name + ",") == std::string::npos) wrong += name + " is not in this version; ";
+        if (const auto found = failing.find(name); found != failing.end() && found->second-- <= 0) {
+            errors.push_back(gnomon::gl::enums::out_of_memory);
+            return false;
+        }
         return !lost || name == "GetError" || name == "GetGraphicsResetStatus";
     }
 
@@ -296,18 +304,34 @@ inline void fake_gl::things() {
     on<&f::CheckFramebufferStatus>("CheckFramebufferStatus", [](fake_gl& gl, unsigned) { return gl.framebuffer_status; });
     on<&f::TexImage2D>("TexImage2D", [](fake_gl& gl, auto...) { gl.allocate(); });
     on<&f::BufferData>("BufferData", [](fake_gl& gl, auto...) { gl.allocate(); });
+    on<&f::ReadBuffer>("ReadBuffer", [](fake_gl& gl, unsigned from) { gl.read_buffer = from; });
     on<&f::PixelStorei>("PixelStorei", [](fake_gl& gl, unsigned name, int value) { gl.put(name, 0, value); });
-    ignore<&f::TexSubImage2D, &f::TexParameteri, &f::SamplerParameteri, &f::FramebufferTexture2D, &f::DrawBuffers, &f::ReadBuffer,
+    ignore<&f::TexSubImage2D, &f::TexParameteri, &f::SamplerParameteri, &f::FramebufferTexture2D, &f::DrawBuffers,
            &f::BlitFramebuffer, &f::InvalidateFramebuffer, &f::ClearBufferfv, &f::ClearBufferiv, &f::ClearBufferuiv,
            &f::ClearBufferfi, &f::ReadPixels, &f::BufferSubData, &f::EnableVertexAttribArray, &f::DisableVertexAttribArray,
            &f::VertexAttribPointer, &f::VertexAttribIPointer, &f::VertexAttribDivisor, &f::DrawArrays, &f::DrawArraysInstanced,
-           &f::DrawElements, &f::DrawElementsInstanced>(
-        {"TexSubImage2D",       "TexParameteri",        "SamplerParameteri",       "FramebufferTexture2D",
-         "DrawBuffers",         "ReadBuffer",           "BlitFramebuffer",         "InvalidateFramebuffer",
-         "ClearBufferfv",       "ClearBufferiv",        "ClearBufferuiv",          "ClearBufferfi",
-         "ReadPixels",          "BufferSubData",        "EnableVertexAttribArray", "DisableVertexAttribArray",
-         "VertexAttribPointer", "VertexAttribIPointer", "VertexAttribDivisor",     "DrawArrays",
-         "DrawArraysInstanced", "DrawElements",         "DrawElementsInstanced"});
+           &f::DrawElements, &f::DrawElementsInstanced>({"TexSubImage2D",
+                                                         "TexParameteri",
+                                                         "SamplerParameteri",
+                                                         "FramebufferTexture2D",
+                                                         "DrawBuffers",
+                                                         "BlitFramebuffer",
+                                                         "InvalidateFramebuffer",
+                                                         "ClearBufferfv",
+                                                         "ClearBufferiv",
+                                                         "ClearBufferuiv",
+                                                         "ClearBufferfi",
+                                                         "ReadPixels",
+                                                         "BufferSubData",
+                                                         "EnableVertexAttribArray",
+                                                         "DisableVertexAttribArray",
+                                                         "VertexAttribPointer",
+                                                         "VertexAttribIPointer",
+                                                         "VertexAttribDivisor",
+                                                         "DrawArrays",
+                                                         "DrawArraysInstanced",
+                                                         "DrawElements",
+                                                         "DrawElementsInstanced"});
 }
 
 inline void fake_gl::programs() {
@@ -328,18 +352,25 @@ inline void fake_gl::programs() {
     on<&f::GetProgramiv>("GetProgramiv", [](fake_gl& gl, unsigned, unsigned name, int* to) {
         *to = name == enums::link_status ? gl.link_log.empty() : static_cast<int>(gl.link_log.size()) + 1;
     });
-    on<&f::GetShaderInfoLog>("GetShaderInfoLog", [](fake_gl& gl, unsigned, int capacity, int* length, char* to) {
-        *length = static_cast<int>(gl.shader_log.copy(to, static_cast<std::size_t>(capacity - 1)));
+    on<&f::GetShaderInfoLog>("GetShaderInfoLog", [](fake_gl& gl, unsigned, int capacity, int*, char* to) {
+        to[gl.shader_log.copy(to, static_cast<std::size_t>(capacity - 1))] = '\0';
     });
-    on<&f::GetProgramInfoLog>("GetProgramInfoLog", [](fake_gl& gl, unsigned, int capacity, int* length, char* to) {
-        *length = static_cast<int>(gl.link_log.copy(to, static_cast<std::size_t>(capacity - 1)));
+    on<&f::GetProgramInfoLog>("GetProgramInfoLog", [](fake_gl& gl, unsigned, int capacity, int*, char* to) {
+        to[gl.link_log.copy(to, static_cast<std::size_t>(capacity - 1))] = '\0';
     });
-    ignore<&f::ShaderSource, &f::CompileShader, &f::AttachShader, &f::DetachShader, &f::BindAttribLocation, &f::LinkProgram,
-           &f::GetUniformLocation, &f::Uniform1i, &f::Uniform2i, &f::Uniform4i, &f::Uniform1ui, &f::Uniform1f, &f::Uniform2f,
-           &f::Uniform3f, &f::Uniform4f, &f::Uniform1fv, &f::Uniform1uiv, &f::UniformMatrix4fv>(
-        {"ShaderSource", "CompileShader", "AttachShader", "DetachShader", "BindAttribLocation", "LinkProgram", "GetUniformLocation",
-         "Uniform1i", "Uniform2i", "Uniform4i", "Uniform1ui", "Uniform1f", "Uniform2f", "Uniform3f", "Uniform4f", "Uniform1fv",
-         "Uniform1uiv", "UniformMatrix4fv"});
+    on<&f::ShaderSource>("ShaderSource", [](fake_gl& gl, unsigned, int, const char* const* text, const int* length) {
+        gl.sources.emplace_back(*text, static_cast<std::size_t>(*length));
+    });
+    on<&f::GetUniformLocation>("GetUniformLocation", [](fake_gl& gl, unsigned, const char* name) {
+        gl.uniforms.insert(name);
+        return 0;
+    });
+    ignore<&f::CompileShader, &f::AttachShader, &f::DetachShader, &f::BindAttribLocation, &f::LinkProgram, &f::Uniform1i,
+           &f::Uniform2i, &f::Uniform4i, &f::Uniform1ui, &f::Uniform1f, &f::Uniform2f, &f::Uniform3f, &f::Uniform4f, &f::Uniform1fv,
+           &f::Uniform1uiv, &f::UniformMatrix4fv>({"CompileShader", "AttachShader", "DetachShader", "BindAttribLocation",
+                                                   "LinkProgram", "Uniform1i", "Uniform2i", "Uniform4i", "Uniform1ui", "Uniform1f",
+                                                   "Uniform2f", "Uniform3f", "Uniform4f", "Uniform1fv", "Uniform1uiv",
+                                                   "UniformMatrix4fv"});
 }
 
 inline void fake_gl::fixed_state() {

@@ -51,18 +51,14 @@ namespace detail {
 }
 
 template <typename Channel, int Channels> [[nodiscard]] constexpr format format_of_channel() noexcept {
-    if constexpr (std::is_same_v<Channel, unorm8>)
-        return wide_enough(Channels, rg8_format, rgba8_format);
-    else if constexpr (std::is_same_v<Channel, unorm16>)
-        return wide_enough(Channels, rg16_format, rgba16_format);
-    else if constexpr (std::is_same_v<Channel, half16>)
-        return wide_enough(Channels, rg16f_format, rgba16f_format);
-    else {
-        static_assert(
-            std::is_same_v<Channel, float32>,
-            "gnomon: GL stores texels of unorm8, unorm16, half16 and float32; no internal format is known for this channel");
-        return wide_enough(Channels, rg32f_format, rgba32f_format);
-    }
+    constexpr bool is_8 = std::is_same_v<Channel, unorm8>, is_16 = std::is_same_v<Channel, unorm16>,
+                   is_half = std::is_same_v<Channel, half16>;
+    static_assert(is_8 || is_16 || is_half || std::is_same_v<Channel, float32>,
+                  "gnomon: GL stores texels of unorm8, unorm16, half16 and float32; no internal format is known for this channel");
+    return is_8      ? wide_enough(Channels, rg8_format, rgba8_format)
+           : is_16   ? wide_enough(Channels, rg16_format, rgba16_format)
+           : is_half ? wide_enough(Channels, rg16f_format, rgba16f_format)
+                     : wide_enough(Channels, rg32f_format, rgba32f_format);
 }
 
 } // namespace detail

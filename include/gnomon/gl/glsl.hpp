@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,6 @@ class truth {
     [[nodiscard]] const std::string& text() const noexcept { return text_; }
     [[nodiscard]] const std::optional<bool>& value() const noexcept { return value_; }
     [[nodiscard]] block* where() const noexcept { return where_; }
-    [[nodiscard]] bool is_short() const noexcept { return holds_ == binding::name; }
     [[nodiscard]] std::string within(binding place) const { return holds_ < place ? '(' + text_ + ')' : text_; }
 
     [[nodiscard]] friend truth operator!(const truth& t) {
@@ -39,11 +39,10 @@ class truth {
     }
     [[nodiscard]] friend truth both(const truth& a, const truth& b) {
         if (a.value_) return *a.value_ ? b : a;
-        if (b.value_) return *b.value_ ? a : b;
+        if (b.value_) return both(b, a);
         return truth(a.within(binding::both) + " && " + b.within(binding::both), binding::both, any(a.where_, b.where_));
     }
     [[nodiscard]] friend truth select(const truth& condition, const truth& a, const truth& b) {
-        if (condition.value_) return *condition.value_ ? a : b;
         return truth(condition.within(binding::both) + " ? " + a.within(binding::both) + " : " + b.within(binding::both),
                      binding::choice, any(condition.where_, any(a.where_, b.where_)));
     }
@@ -86,7 +85,7 @@ class number {
     [[nodiscard]] bool is_short() const noexcept { return holds_ == binding::name; }
 
     [[nodiscard]] friend number operator-(const number& a) {
-        return a.value_ ? number(-*a.value_) : number('-' + a.within(binding::name), a, a, binding::product).as_wide_as(a);
+        return number('-' + a.within(binding::name), a, a, binding::product).as_wide_as(a);
     }
     [[nodiscard]] friend number operator+(const number& a, const number& b) {
         if (b.is(0.0f)) return a;
@@ -95,13 +94,11 @@ class number {
     }
     [[nodiscard]] friend number operator-(const number& a, const number& b) {
         if (b.value_ && *b.value_ <= 0.0f) return a + number(0.0f - *b.value_);
-        if (b.is(0.0f)) return a;
         const number less = b.beside(a);
         return number(a.within(binding::sum) + " - " + less.within(binding::product), a, b, binding::sum).as_wide_as(a);
     }
     [[nodiscard]] friend number operator*(const number& a, const number& b) {
         if (b.is(1.0f)) return a;
-        if (a.is(1.0f)) return b;
         number made(a.one().within(binding::product) + " * " + b.one().within(binding::name), a, b, binding::product);
         made.factors_ = {a.text_, b.text_, (-a).text_};
         return made;
@@ -121,17 +118,7 @@ class number {
                           : exceeds(b.factors_->minus_left, b.factors_->right, (-a).text_);
     }
     [[nodiscard]] friend truth operator<(const number& a, const number& b) {
-        if ((a.value_ && b.value_) || a.factors_ || b.factors_) return b > a;
-        return compared(a, " < ", b);
-    }
-    /// \pre neither is a product
-    [[nodiscard]] friend truth operator>=(const number& a, const number& b) {
-        if (a.value_ && b.value_) return truth(*a.value_ >= *b.value_);
-        return compared(a, " >= ", b);
-    }
-    [[nodiscard]] friend truth operator<=(const number& a, const number& b) {
-        if (a.value_ && b.value_) return truth(*a.value_ <= *b.value_);
-        return compared(a, " <= ", b);
+        return a.factors_ || b.factors_ ? b > a : compared(a, " < ", b);
     }
     [[nodiscard]] friend number select(const truth& condition, const number& a, const number& b) {
         if (condition.value()) return *condition.value() ? a : b;
@@ -212,14 +199,12 @@ class block {
             if (each.name == name) return true;
         return false;
     }
-    /// As a word of its own, and not as a member of something.
+    /// As a word of its own, and not as a member of something. A text begins with spaces.
     [[nodiscard]] static bool mentions(const std::string& text, const std::string& name) {
-        const auto joins = [](char c) { return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z'); };
-        for (auto at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
-            const auto end = at + name.size();
-            if ((at == 0 || (text[at - 1] != '.' && !joins(text[at - 1]))) && (end == text.size() || !joins(text[end])))
-                return true;
-        }
+        constexpr std::string_view before = ".0123456789_abcdefghijklmnopqrstuvwxyz", after = before.substr(1);
+        const auto none = [](std::string_view of, char c) { return of.find(c) == std::string_view::npos; };
+        for (auto at = text.find(name); at != std::string::npos; at = text.find(name, at + 1))
+            if (none(before, text[at - 1]) && none(after, text[at + name.size()])) return true;
         return false;
     }
 
@@ -231,7 +216,7 @@ class block {
     return value.where() == nullptr || value.is_short() ? value : value.where()->let(name, value);
 }
 [[nodiscard]] inline truth let(const char* name, const truth& value) {
-    return value.where() == nullptr || value.is_short() ? value : value.where()->let(name, value);
+    return value.where() == nullptr ? value : value.where()->let(name, value);
 }
 
 } // namespace gl::glsl

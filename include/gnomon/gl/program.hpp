@@ -18,11 +18,9 @@ template <auto Get, auto GetLog> [[nodiscard]] std::string log_of(const function
     (gl.*Get)(name, enums::info_log_length, &length);
     if (length <= 1) return "the driver says nothing";
     std::string text(static_cast<std::size_t>(length), '\0');
-    int written = 0;
-    (gl.*GetLog)(name, length, &written, text.data());
-    text.resize(written > 0 && written < length ? static_cast<std::size_t>(written) : 0);
-    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-    return text;
+    (gl.*GetLog)(name, length, nullptr, text.data());
+    text = text.c_str();
+    return text.substr(0, text.find_last_not_of("\n ") + 1);
 }
 
 /// Empty if it compiled. The text need not end with a zero.

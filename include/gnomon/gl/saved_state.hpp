@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gnomon/gl/state_list.hpp>
+#include <gnomon/unit.hpp>
 
 #include <cstddef>
 
@@ -14,7 +15,7 @@ class saved_units {
     static constexpr int most = 8;
 
     saved_units(const context& c, int units) noexcept
-        : count_(units < most ? units : most), active_(integer(*c.gl, enums::active_texture, 0)) {
+        : count_(lesser(units, most)), active_(integer(*c.gl, enums::active_texture, 0)) {
         for (int i = 0; i < count_; ++i) {
             c.gl->ActiveTexture(enums::texture0 + static_cast<unsigned>(i));
             textures_[i] = integer(*c.gl, enums::texture_binding_2d, 0);
@@ -74,7 +75,7 @@ class saved_bindings {
 /// Color mask and blending of every draw buffer that can have its own.
 class saved_outputs {
   public:
-    explicit saved_outputs(const context& c) noexcept : count_(c.max_draw_buffers < most ? c.max_draw_buffers : most) {
+    explicit saved_outputs(const context& c) noexcept : count_(lesser(c.max_draw_buffers, most)) {
         const functions& gl = *c.gl;
         const bool blend_indexed = c.since(40, 32);
         for (int i = 0; i < count_; ++i) {
@@ -128,7 +129,7 @@ class saved_outputs {
 /// Viewport, scissor and depth range: one, or the array of them that a single call sets all of.
 class saved_viewports {
   public:
-    explicit saved_viewports(const context& c) noexcept : count_(c.max_viewports < most ? c.max_viewports : most) {
+    explicit saved_viewports(const context& c) noexcept : count_(lesser(c.max_viewports, most)) {
         const functions& gl = *c.gl;
         if (count_ <= 1) {
             only_.scissor_test = gl.IsEnabled(enums::scissor_test) != 0;

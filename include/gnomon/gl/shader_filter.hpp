@@ -103,9 +103,9 @@ template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_na
 
 /// How a texel's channels are read in the first pass: as a linear filter has to see them.
 template <texel_format Texel> [[nodiscard]] std::string linear_text() {
-    if constexpr (!Texel::channel_type::whole_codes) return "texel";
+    if (!Texel::channel_type::whole_codes) return "texel";
     const std::string codes = vec<Texel>("u") + "(texel * " + literal(Texel::channel_type::scale) + " + 0.5)";
-    if constexpr (Texel::representation_type::premultiplied) return codes;
+    if (Texel::representation_type::premultiplied) return codes;
     std::string text = vec<Texel>("u") + "(";
     for (int c = 0; c < components<Texel>; ++c) {
         const std::string code = std::string("codes.") + "xyzw"[c];

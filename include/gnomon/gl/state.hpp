@@ -74,7 +74,7 @@ template <state_policy Policy = state_policy::dirty> class [[nodiscard]] state_g
 
     explicit state_guard(const context& c, int units = 4) noexcept : saved_(c, units) {
         GNOMON_ASSERT(units >= 0 && units <= most_units, "gnomon: a state guard keeps at most eight texture units");
-        detail::force_state(c, units < most_units ? units : most_units);
+        detail::force_state(c, lesser(units, most_units));
     }
 
     state_guard(const state_guard&) = delete;

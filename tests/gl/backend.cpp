@@ -1,0 +1,121 @@
+// The GPU as a backend where GL fails at something: on a GL that draws nothing, so what is right was done by scalar.
+#include "../support/fake_gl.hpp"
+#include "../support/filtering.hpp"
+#include "../support/formats.hpp"
+
+#include <gnomon/gl/backend.hpp>
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+namespace gl = gnomon::gl;
+using gnomon::image;
+using gnomon::rg8;
+using kernel = gnomon::binomial<2>;
+
+/// What a GL fails at, after so many calls that go well; and a part of what is said then.
+struct failure {
+    const char* name;
+    int after;
+    const char* says;
+};
+
+/// Calls use(backend) on a GL of its own for each failure: it is said, and nothing leaks.
+template <typename Use> void for_each_failure(const std::vector<failure>& failures, Use&& use) {
+    for (const failure& each : failures) {
+        CAPTURE(std::string(each.name));
+        CAPTURE(each.after);
+        test::fake_gl fake("3.3");
+        {
+            const gl::context c = *gl::context::of(fake.table);
+            const gl::backend run(c);
+            fake.failing = {{each.name, each.after}};
+            use(run);
+            CHECK(run.problem().sentence.find(each.says) != std::string::npos);
+        }
+        CHECK(fake.alive() == 0);
+        CHECK(fake.wrong == "");
+    }
+}
+
+const std::vector<failure> programs_fail{{"BufferData", 0, "a buffer of"}, {"CreateProgram", 0, "no name for a program"}};
+const std::vector<failure> receiving_fails{{"TexImage2D", 0, "GL_OUT_OF_MEMORY"},
+                                           {"TexImage2D", 1, "RGBA32F: GL_OUT_OF_MEMORY"},
+                                           {"TexImage2D", 2, "RG32UI: GL_OUT_OF_MEMORY"},
+                                           {"GenFramebuffers", 0, "no name for a framebuffer"},
+                                           {"ReadPixels", 0, "receiving on the host's behalf: GL_OUT_OF_MEMORY"}};
+} // namespace
+
+TEST_CASE("whatever GL fails at, the host's image is filtered, and the backend says why not there") {
+    test::dice roll(753);
+    const image<rg8> from = test::noise<rg8>(roll, {40, 30}, 3), expected = test::dense<kernel>(from);
+    const auto filters = [&](const gl::backend& run) {
+        image<rg8> made(from.size());
+        gnomon::filter_scratch<rg8, kernel> scratch(40);
+        run.filter_region(from.view(), made.view(), whole(from.size()), scratch);
+        CHECK(test::differences(made, expected) == 0);
+    };
+    for_each_failure(programs_fail, filters);
+    for_each_failure({{"TexImage2D", 3, "GL_OUT_OF_MEMORY"},
+                      {"GenFramebuffers", 2, "no name for a framebuffer"},
+                      {"ReadPixels", 0, "filtering an image of the host's: GL_OUT_OF_MEMORY"}},
+                     filters);
+}
+
+TEST_CASE("an image is not filtered into itself on a GPU either") {
+    test::fake_gl fake("3.3");
+    const gl::context c = *gl::context::of(fake.table);
+    const gl::backend run(c);
+    test::dice roll(754);
+    image<rg8> both = test::noise<rg8>(roll, {40, 30}, 3);
+    const image<rg8> before = both;
+    gnomon::filter_scratch<rg8, kernel> scratch(40);
+    fake.calls.clear();
+    run.filter_region(both.view(), both.view(), whole(both.size()), scratch);
+    CHECK(test::differences(both, before) == 0);
+    CHECK(fake.calls.empty());
+}
+
+TEST_CASE("whatever GL fails at, receivers are decided about, and the backend says why not there") {
+    test::dice roll(755);
+    const image<rg8> map = test::dense<kernel>(test::noise<rg8>(roll, {40, 30}, 3));
+    const std::vector<float> z(40, 0.9f), x(40, 20.25f), y(40, 15.75f);
+    std::vector<float> on_texels(40), at_points(40);
+    gnomon::receive(map.view().row_span(7), z, on_texels);
+    gnomon::receive(map.view(), x, y, z, at_points);
+    CHECK(at_points[0] > 0.0f);
+    const auto receives_on_texels = [&](const gl::backend& run) {
+        std::vector<float> made(40);
+        gnomon::receive(run, map.view().row_span(7), z, made);
+        CHECK(made == on_texels);
+    };
+    const auto receives_at_points = [&](const gl::backend& run) {
+        std::vector<float> made(40);
+        gnomon::receive(run, map.view(), x, y, z, made);
+        CHECK(made == at_points);
+    };
+    for (const auto& failures : {programs_fail, receiving_fails}) {
+        for_each_failure(failures, receives_on_texels);
+        for_each_failure(failures, receives_at_points);
+    }
+}
+
+TEST_CASE("a pass for receivers of each kind compiles the main that is theirs, and finds their texture") {
+    test::fake_gl fake("3.3");
+    const gl::context c = *gl::context::of(fake.table);
+    const auto makes = [&](gl::receivers of, std::string_view main, const char* texture) {
+        fake.uniforms.clear();
+        const auto made = gl::receive_pass<rg8>::make(c, of);
+        CHECK(made.error().sentence == "");
+        const std::string_view source = fake.sources.back();
+        CHECK(source.substr(source.size() - main.size()) == main);
+        CHECK(fake.uniforms.count(texture) == 1);
+    };
+    makes(gl::receivers::texels, gl::receive_texels_main_text, "gnomon_depths");
+    makes(gl::receivers::points, gl::receive_points_main_text, "gnomon_points");
+    makes(gl::receivers::screen, gl::receive_screen_main_text, "gnomon_depths");
+}
