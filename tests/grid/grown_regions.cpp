@@ -118,6 +118,16 @@ TEST_CASE("so it is where words of tiles meet, and the guard band of one word re
     }
     CHECK(j.wrong == 0);
     CHECK(j.clipped > 1000);
+    for (int round = 0; round < 200; ++round) { // and so is a radius wider than a word
+        const int radius = roll(65, 140);
+        marked m({roll(130, 400), roll(1, 3)}, 1);
+        for (int n = roll(1, 2); n > 0; --n) {
+            const int x = roll.one_in(2) ? 64 * roll(0, 3) : roll(0, m.tiles.size().width - 1);
+            m.mark({x, 0, x + 1, 1}, radius, 0);
+        }
+        j.judge(m, radius);
+    }
+    CHECK(j.wrong == 0);
 }
 
 TEST_CASE("what is left of a frame is what it needed and the next one does not") {
@@ -206,4 +216,8 @@ TEST_CASE("no map, no marks and marks off the map have no regions") {
     CHECK(tiles.held_count() == 0);
     CHECK(regions(tiles, 4).empty());
     for_each_region_left(tile_grid{}, tiles, 4, [](texel_rect) { CHECK(false); });
+    int left = 0;
+    tiles.mark({0, 0, 10, 10});
+    for_each_region_left(tiles, tile_grid({30, 30}, 10), -1, [&](texel_rect r) { left += r == texel_rect{0, 0, 10, 10} ? 1 : 9; });
+    CHECK(left == 1);
 }

@@ -3,6 +3,7 @@
 
 #include <gnomon/grid/tile_grid.hpp>
 
+#include <array>
 #include <cstdint>
 
 namespace gnomon::inline GNOMON_BUILD {
@@ -18,14 +19,14 @@ struct span_list {
 
     span_list() noexcept {} // not = default, which lets {} fill them
 
-    /// What lies left of `from` or right of `to` is cut off; what touches the last span is joined to it.
+    /// What lies left of `from` or right of `to` is cut off; what touches the last span, which ends no later, is joined to it.
     void add(std::int64_t begin, std::int64_t end, int from, int to) noexcept {
         const int x0 = static_cast<int>(greater<std::int64_t>(begin, from)), x1 = static_cast<int>(lesser<std::int64_t>(end, to));
         if (x0 >= x1) return;
         const bool joined = count > 0 && last[count - 1] >= x0;
         count += joined ? 0 : 1;
         if (!joined) first[count - 1] = x0;
-        last[count - 1] = joined ? greater(last[count - 1], x1) : x1;
+        last[count - 1] = x1;
     }
 };
 
@@ -49,19 +50,15 @@ struct band {
 };
 
 /// The bands of any row of tiles: it changes what grows into a texel `radius` below a tile's first and last one.
-struct bands {
-    band at[3];
-    int count = 0;
-
-    bands(int tile, int radius) noexcept {
-        const int below = radius % tile, above = (tile - below) % tile;
-        for (const int offset : {0, lesser(below, above), greater(below, above)}) {
-            if (count > 0 && at[count - 1].offset == offset) continue;
-            const std::int64_t top = std::int64_t{offset} - radius, end = std::int64_t{offset} + radius;
-            at[count++] = {offset, static_cast<int>((top - (top < 0 ? tile - 1 : 0)) / tile), static_cast<int>(end / tile)};
-        }
-    }
-};
+[[nodiscard]] inline std::array<band, 3> bands_of(int tile, int radius) noexcept {
+    const int below = radius % tile, above = (tile - below) % tile;
+    const auto band_at = [&](int offset) {
+        const std::int64_t top = std::int64_t{offset} - radius,
+                           end = std::int64_t{offset} + radius; // top < tile: it is rounded down
+        return band{offset, static_cast<int>((top - (tile - 1)) / tile), static_cast<int>(end / tile)};
+    };
+    return {band_at(0), band_at(lesser(below, above)), band_at(greater(below, above))};
+}
 
 /// What one word of tiles needs in one band after another.
 class grown_word {
@@ -186,19 +183,17 @@ template <typename F> span_stack(F&) -> span_stack<F>;
 
 /// Calls at(row, y, band) for the bands that rows with marks grow into, from row 0 upwards, and beyond(y) where others follow.
 template <typename At, typename Beyond> void for_each_band_of(const tile_grid& grid, int radius, At&& at, Beyond&& beyond) {
-    const bands each(grid.tile(), radius);
-    const int reach_up = -each.at[0].first, reach_down = each.at[each.count - 1].last;
-    for (int row = 0; row < grid.rows();) {
+    const std::array<band, 3> bands = bands_of(grid.tile(), radius);
+    const int reach_up = -bands.front().first, reach_down = bands.back().last;
+    for (int row = 0; row < grid.rows(); ++row) {
         const int next = grid.held_rows().next_set(greater(row - reach_up, 0));
         if (next - reach_down > row || next == grid.rows()) {
             beyond(row * grid.tile());
             row = next == grid.rows() ? next : next - reach_down;
-            continue;
         }
-        for (int b = 0; b < each.count; ++b)
-            if (const std::int64_t y = std::int64_t{row} * grid.tile() + each.at[b].offset; y < grid.size().height)
-                at(row, static_cast<int>(y), each.at[b]);
-        ++row;
+        for (const band& b : bands)
+            if (const std::int64_t y = std::int64_t{row} * grid.tile() + b.offset; y < grid.size().height)
+                at(row, static_cast<int>(y), b);
     }
 }
 
