@@ -64,10 +64,10 @@ TEST_CASE("a map that cannot be made says why, keeps nothing of GL, and is lit e
             CHECK(map.soft_texture() == 0);
             CHECK(map.caster_framebuffer() == 0);
             map.cast([](const gl::map_targets&) {
-                FAIL("draws into nothing");
+                FAIL_CHECK("draws into nothing");
                 return touched{};
             });
-            map.bound([](const gl::map_targets&) { FAIL("bounds nothing"); });
+            map.bound([](const gl::map_targets&) { FAIL_CHECK("bounds nothing"); });
             CHECK(b.fake.calls.empty());
         }
         CHECK(b.fake.alive() == 0);
@@ -151,7 +151,7 @@ TEST_CASE("an empty frame after an empty frame calls no function of GL, nor does
     b.fake.calls.clear();
     map.clear();
     map.bound({0, 0, 64, 64}, 0.5f);
-    map.bound([](const gl::map_targets&) { FAIL("bounds the shadow of nothing"); });
+    map.bound([](const gl::map_targets&) { FAIL_CHECK("bounds the shadow of nothing"); });
     map.filter();
     CHECK(b.fake.calls.empty());
     for (const gnomon::map_size size : {gnomon::map_size{0, 64}, {64, 0}, {-3, -3}}) {
