@@ -170,7 +170,7 @@ TEST_CASE("receivers anywhere on maps of more texels a side than lanes count are
     std::vector<rg8> memory(2 * many);
     for (const int last : {most, many})
         for (int i = 2 * last - 18; i < 2 * last; ++i) memory[static_cast<std::size_t>(i)] = test::any_caster<rg8>(roll);
-    const auto near_end = [](int size) { // two texels of the other side, and floats a half apart of this one
+    const auto near_end = [](int size) { // from nine texels before it to two beyond, by halves, which floats still tell
         std::vector<float> at;
         for (int i = -18; i <= 4; ++i) at.push_back(static_cast<float>(size) + static_cast<float>(i) * 0.5f);
         return at;
