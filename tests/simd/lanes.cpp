@@ -263,10 +263,7 @@ TEST_CASE("codes are stored rounded down, halves and floats to nearest: on, just
             const double next =
                 static_cast<double>(gnomon::half_to_float(static_cast<std::uint16_t>(code == 65535 ? 0 : code + 1)));
             const double tie = half / 2 + next / 2;
-            const auto beside = [](double v, int steps) {
-                return std::bit_cast<double>(std::bit_cast<std::uint64_t>(v) +
-                                             static_cast<std::uint64_t>(static_cast<std::int64_t>(steps)));
-            };
+            const auto beside = [](double v, int steps) { return std::bit_cast<double>(std::bit_cast<std::int64_t>(v) + steps); };
             const double halves[8] = {half,
                                       tie,
                                       beside(tie, 1),
