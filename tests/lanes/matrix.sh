@@ -52,7 +52,7 @@ TABLE
 }
 
 # What continuous integration runs: one of a kind, without the packages that take longest.
-quick_rows=(gcc-fma clang-fma nehalem s390x-gcc)
+quick_rows=(can-fail gcc-fma clang-fma nehalem s390x-gcc)
 
 run_lane() {
     local names name wanted=("$@")
@@ -229,7 +229,7 @@ row_can_fail() {
         fi
     done <<'TABLE'
 texel|texel/channel.hpp|s/static_cast<float>(code) + 0.0f/static_cast<float>(code)/
-filter|filter/separable.hpp|s/line\[i\] = to_bits<36>(line\[i\])/line[i] = line[i]/
+filter|filter/separable.hpp|s/return to_bits<36>(sum);/return sum;/
 texel|texel/half.hpp|s/rest == tie && (kept & 1) != 0/rest == tie/
 receive|texel/depth_mask.hpp|s/return select(.*/return e > m * (Real(1) - z);/
 TABLE
