@@ -96,15 +96,23 @@ TEST_CASE("what has to be written is what lies within the radius of the casters'
 }
 
 TEST_CASE("a map of which so much has to be written that the whole is cheaper is filtered whole, from the stated share on") {
-    constexpr int side = 200, percent = gnomon::dense_from_percent;
-    const auto of_rows = [](int rows) { // marks that a filter without radius has to write
-        tile_grid tiles({side, side}, 1);
-        tiles.mark({0, 0, side, rows});
-        return tiles;
-    };
-    static_assert(side * percent % 100 == 0);
-    CHECK(gnomon::regions_to_filter<box<0>>(of_rows(side * percent / 100)).all());
-    CHECK_FALSE(gnomon::regions_to_filter<box<0>>(of_rows(side * percent / 100 - 1)).all());
+    constexpr int side = 200, rows = gnomon::dense_from_percent;
+    const auto but_for =
+        [](extent size, int texels) { // marks in so many of a hundred rows or columns, which a filter without radius has to write
+            tile_grid tiles(size, 1);
+            const bool wide = size.width > size.height;
+            tiles.mark(wide ? texel_rect{0, 0, side, rows - 1} : texel_rect{0, 0, rows - 1, side});
+            tiles.mark(wide ? texel_rect{0, 0, side - texels, rows} : texel_rect{0, 0, rows, side - texels});
+            return tiles;
+        };
+    for (const extent size : {extent{side, 100}, extent{100, side}}) {
+        CHECK(gnomon::regions_to_filter<box<0>>(but_for(size, 0)).all());
+        CHECK_FALSE(gnomon::regions_to_filter<box<0>>(but_for(size, 1)).all());
+    }
+    tile_grid cut({1, 99}, 2); // 89 of 99 texels, in tiles that could hold 180
+    cut.mark({0, 0, 1, 88});
+    cut.mark({0, 98, 1, 99});
+    CHECK_FALSE(gnomon::regions_to_filter<box<0>>(cut).all());
     tile_grid scattered({side, side}, 10); // could be everything, by the number of tiles, and is not
     for (int y = 0; y < 20; ++y)
         for (int x = y % 2; x < 20; x += 2) scattered.mark({10 * x + 5, 10 * y + 5, 10 * x + 6, 10 * y + 6}, 4);

@@ -212,16 +212,19 @@ TEST_CASE("the origin stands still while casters wander within a cell and while 
 
 TEST_CASE("the origin of a spot light is its place to an eighth of the distance to its near plane, whatever a matrix calls that") {
     const glm::dvec3 place(3.3, -2.7, 1.1), ahead(0.36, -0.48, 0.8);
-    const glm::dmat4 matrix =
-        glm::perspectiveRH_ZO(1.0, 1.0, 0.01, 80.0) * glm::lookAtRH(place, place + ahead, glm::dvec3(0, 1, 0));
-    for (const double scale : {0x1p-6, 1.0, 0x1p6}) {
-        const light_frame light = light_frame::from_matrix(matrix * scale, {4, 4}, {clip_depth::zero_to_one});
-        REQUIRE(light.valid());
-        const glm::dvec3 origin = rebase_origin(light), off = glm::abs(origin - place);
-        constexpr double cell = 0x1p-9; // 1/8 to 1/4 of 0.01
-        CHECK(greater(off.x, greater(off.y, off.z)) <= 0.5 * cell * 1.001);
-        for (int k = 0; k < 3; ++k) CHECK(test::equal(origin[k] / cell, std::round(origin[k] / cell)));
-    }
+    const struct {
+        double near_plane, far_plane, cell; // 1/8 to 1/4 of the first
+    } lamps[] = {{0.01, 80.0, 0x1p-9}, {0.6, 1.2, 0x1p-3}};
+    for (const auto& lamp : lamps)
+        for (const double scale : {0x1p-6, 1.0, 0x1p6}) {
+            const glm::dmat4 matrix = glm::perspectiveRH_ZO(1.0, 1.0, lamp.near_plane, lamp.far_plane) *
+                                      glm::lookAtRH(place, place + ahead, glm::dvec3(0, 1, 0));
+            const light_frame light = light_frame::from_matrix(matrix * scale, {4, 4}, {clip_depth::zero_to_one});
+            REQUIRE(light.valid());
+            const glm::dvec3 origin = rebase_origin(light), off = glm::abs(origin - place);
+            CHECK(greater(off.x, greater(off.y, off.z)) <= 0.5 * lamp.cell * 1.001);
+            for (int k = 0; k < 3; ++k) CHECK(test::equal(origin[k] / lamp.cell, std::round(origin[k] / lamp.cell)));
+        }
 }
 
 TEST_CASE("a spot light keeps its precision right to its near plane because its origin is its own place") {
@@ -299,6 +302,8 @@ TEST_CASE("what is nowhere in doubles is nowhere in floats and no origin makes i
     sun.add_caster(bounding_sphere{{0, 0, 0}, 1.0});
     const light_frame flat = sun.frame({64, 64});
     CHECK(rebased_frame().to_map({1, 2, 3}).in_front() == false);
+    for (const double y : {4.95, 1.0}) // before the near plane, too, it is somewhere
+        CHECK(rebased_frame(lamp, {0, 5, 0}).to_map(rebase(glm::dvec3(0, y, 0), glm::dvec3(0, 5, 0))).in_front());
     CHECK(rebase_origin(light_frame()) == glm::dvec3(0.0));
     CHECK(rebased_frame().origin() == glm::dvec3(0.0));
     CHECK(rebased_frame(light_frame()).matrix() == glm::mat4(0.0f));
