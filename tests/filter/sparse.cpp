@@ -113,6 +113,9 @@ TEST_CASE("a map of which so much has to be written that the whole is cheaper is
     cut.mark({0, 0, 1, 88});
     cut.mark({0, 98, 1, 99});
     CHECK_FALSE(gnomon::regions_to_filter<box<0>>(cut).all());
+    tile_grid middle({12, 12}, 4); // one tile, and all texels within its radius
+    middle.mark({4, 4, 8, 8}, 4);
+    CHECK(gnomon::regions_to_filter<box<4>>(middle).all());
     tile_grid scattered({side, side}, 10); // could be everything, by the number of tiles, and is not
     for (int y = 0; y < 20; ++y)
         for (int x = y % 2; x < 20; x += 2) scattered.mark({10 * x + 5, 10 * y + 5, 10 * x + 6, 10 * y + 6}, 4);
