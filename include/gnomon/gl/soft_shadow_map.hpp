@@ -159,6 +159,7 @@ class soft_shadow_map<Texel, Kernel, gl::backend_of<Policy>>
         textures_.forget();
         run_.forget();
         passes_.reset();
+        pending_.clear();
         problem_ = {"gnomon: the map's context was lost"};
     }
 
