@@ -108,6 +108,11 @@ TEST_CASE_TEMPLATE("under either policy a pass starts from one state, whatever t
                    gl::state_guard<gl::state_policy::dirty>, gl::state_guard<gl::state_policy::restore>) {
     for (const version& v : versions) {
         CAPTURE(v.text);
+        const auto known = [](auto state) { // what was never set is 0
+            std::erase_if(
+                state, [](const auto& s) { return s.second == test::fake_gl::values{} || set_by_pass.count(s.first.first) != 0; });
+            return state;
+        };
         const auto forced = [&](bool hostile) {
             test::fake_gl fake(v.text, v.extensions);
             const gl::context c = *gl::context::of(fake.table);
@@ -115,15 +120,16 @@ TEST_CASE_TEMPLATE("under either policy a pass starts from one state, whatever t
             std::optional<test::hostile_host> host;
             if (hostile) host.emplace(c, roll, units, 0u);
             const Guard guard(c, units);
-            auto state = fake.state;
-            std::erase_if(
-                state, [](const auto& s) { return s.second == test::fake_gl::values{} || set_by_pass.count(s.first.first) != 0; });
             CHECK(fake.wrong == "");
-            return state;
+            return known(fake.state);
         };
-        const auto kind = forced(false);
-        CHECK(kind.size() > 20);
-        CHECK(forced(true) == kind);
+        test::fake_gl fresh(v.text, v.extensions); // a new context's, but for what suits texels
+        fresh.put(enums::dither, 0, 0);
+        for (const unsigned packing : {enums::pack_alignment, enums::unpack_alignment}) fresh.put(packing, 0, 1);
+        const auto expected = known(fresh.state);
+        CHECK(expected.size() > 20);
+        CHECK(forced(false) == expected);
+        CHECK(forced(true) == expected);
     }
 }
 
@@ -138,10 +144,40 @@ TEST_CASE("a dirty guard asks nothing of GL, and puts nothing back") {
             inside = fake.state;
         }
         CHECK(differing(fake, inside) == "");
+        CHECK(fake.calls["BindSampler"] == 4);
         for (const auto& call : fake.calls)
             CHECK_MESSAGE((call.first.substr(0, 3) != "Get" && call.first.substr(0, 2) != "Is"), call.first);
         CHECK(fake.wrong == "");
     }
+}
+
+TEST_CASE("no context is asked for a switch or a pixel store that it has not") {
+    const auto listed = [](const char* version, std::vector<std::string> extensions = {}) {
+        test::fake_gl fake(version, std::move(extensions));
+        const gl::context c = *gl::context::of(fake.table);
+        std::set<unsigned> switches, stores;
+        gl::detail::for_each_switch(c, [&](unsigned what) { switches.insert(what); });
+        gl::detail::for_each_pixel_store(c, [&](unsigned name, int) { stores.insert(name); });
+        CHECK(stores.size() == (c.es ? 8 : 12));
+        return switches;
+    };
+    const std::set<unsigned> everywhere = listed("OpenGL ES 3.0");
+    CHECK(everywhere.size() == 8);
+    const auto more = [&](const std::set<unsigned>& all) {
+        std::set<unsigned> rest = all;
+        for (const unsigned what : everywhere) CHECK(rest.erase(what) == 1);
+        return rest;
+    };
+    const std::set<unsigned> distances{enums::clip_distance0,     enums::clip_distance0 + 1, enums::clip_distance0 + 2,
+                                       enums::clip_distance0 + 3, enums::clip_distance0 + 4, enums::clip_distance0 + 5,
+                                       enums::clip_distance0 + 6, enums::clip_distance0 + 7};
+    CHECK((more(listed("OpenGL ES 3.1")) == std::set<unsigned>{enums::sample_mask}));
+    CHECK((more(listed("OpenGL ES 3.0", {"GL_EXT_depth_clamp"})) == std::set<unsigned>{enums::depth_clamp}));
+    CHECK(more(listed("OpenGL ES 3.0", {"GL_EXT_clip_cull_distance"})) == distances);
+    std::set<unsigned> desktop{enums::color_logic_op,      enums::framebuffer_srgb, enums::polygon_smooth, enums::primitive_restart,
+                               enums::sample_alpha_to_one, enums::sample_mask,      enums::depth_clamp};
+    desktop.insert(distances.begin(), distances.end());
+    CHECK(more(listed("3.3")) == desktop);
 }
 
 TEST_CASE("a restoring guard pauses transform feedback that runs, and leaves alone what is paused or inactive") {

@@ -21,7 +21,7 @@ using gnomon::texel_rect;
 template <typename Texel> struct texture {
     using storage = typename Texel::storage;
     using element = gl::detail::read_element<Texel>;
-    static constexpr int components = gl::format_of<Texel>.channels;
+    static constexpr int components = gl::format_of<Texel>.upload == gl::enums::rg ? 2 : 4;
     static constexpr std::size_t megabyte = 1 << 20;
 
     static inline image<Texel> held = {};
