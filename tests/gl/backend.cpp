@@ -7,6 +7,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -102,6 +107,85 @@ TEST_CASE("whatever GL fails at, receivers are decided about, and the backend sa
         for_each_failure(failures, receives_on_texels);
         for_each_failure(failures, receives_at_points);
     }
+}
+
+TEST_CASE("numbers of any count are lines of a texture with less than a line to spare") {
+    for (const int count : {1, 2, 5, 1023, 1024, 1025, 4096, 5000, 1 << 20}) {
+        const gnomon::extent lines = gl::detail::lines_of(count);
+        CAPTURE(count);
+        CHECK(lines.width <= 1024); // which every context has
+        CHECK(lines.width * lines.height >= count);
+        CHECK(lines.width * (lines.height - 1) < count);
+        CHECK((lines.width == 1024 || lines.width == count));
+    }
+    CHECK(gl::detail::lines_of(0) == gnomon::extent{1, 1});
+}
+
+TEST_CASE("as many receivers are decided about as have all that they need, and no more, be it one or none") {
+    test::fake_gl fake("3.3");
+    fake.table.ReadPixels = [](int, int, int width, int height, unsigned, unsigned, void* to) {
+        std::fill_n(static_cast<std::uint32_t*>(to), 4 * width * height, std::bit_cast<std::uint32_t>(0.5f));
+    };
+    const gl::context c = *gl::context::of(fake.table);
+    const gl::backend run(c);
+    const image<rg8> map({8, 8}, rg8::clear()), none;
+    using sizes = std::array<std::size_t, 5>; // of texels, x, y, z and intensities
+    for (const sizes& n : {sizes{9, 9, 9, 9, 9},
+                           {3, 9, 9, 9, 9},
+                           {9, 3, 9, 9, 9},
+                           {9, 9, 3, 9, 9},
+                           {9, 9, 9, 3, 9},
+                           {9, 9, 9, 9, 3},
+                           {1, 1, 9, 9, 9},
+                           {0, 9, 9, 0, 9}}) {
+        const auto first = [](std::size_t count, float decided) {
+            std::vector<float> expected(9, 7.0f);
+            std::fill_n(expected.begin(), count, decided);
+            return expected;
+        };
+        const std::vector<rg8> texels(n[0], rg8::clear());
+        const std::vector<float> x(n[1]), y(n[2]), z(n[3]);
+        const auto into = [&n](std::vector<float>& all) { return gnomon::strided_span<float>(all.data(), static_cast<int>(n[4])); };
+        std::vector<float> made(9, 7.0f);
+        gnomon::receive(run, texels, z, into(made));
+        CHECK(made == first(std::min({n[0], n[3], n[4]}), 0.5f));
+        made = first(0, 0.0f);
+        gnomon::receive(run, map.view(), x, y, z, into(made));
+        CHECK(made == first(std::min({n[1], n[2], n[3], n[4]}), 0.5f));
+        made = first(0, 0.0f);
+        fake.calls.clear();
+        gnomon::receive(run, none.view(), x, y, z, into(made)); // lit, and nobody is asked
+        CHECK(made == first(std::min({n[1], n[2], n[3], n[4]}), 0.0f));
+        CHECK(fake.calls.empty());
+        CHECK(run.problem().sentence == "");
+    }
+    CHECK(fake.wrong == "");
+}
+
+TEST_CASE("an empty part of an image is filtered without a call, and a texel that GL has not without GL") {
+    test::fake_gl fake("OpenGL ES 3.0");
+    const gl::context c = *gl::context::of(fake.table);
+    const gl::backend run(c);
+    test::dice roll(756);
+    const image<rg8> from = test::noise<rg8>(roll, {40, 30}, 3);
+    image<rg8> made({40, 30}, rg8::caster(0.25f));
+    const image<rg8> before = made;
+    gnomon::filter_scratch<rg8, kernel> scratch(40);
+    fake.calls.clear();
+    for (const gnomon::texel_rect region : {gnomon::texel_rect{5, 5, 5, 9}, {5, 5, 9, 5}, {40, 0, 50, 9}, {0, -9, 9, 0}})
+        run.filter_region(from.view(), made.view(), region, scratch);
+    CHECK(test::differences(made, before) == 0);
+    CHECK(fake.calls.empty());
+
+    using wide = gnomon::rg16;
+    const image<wide> map = test::noise<wide>(roll, {40, 30}, 3);
+    const std::vector<float> z(40, 0.9f);
+    std::vector<float> intensity(40), expected(40);
+    gnomon::receive(map.view().row_span(7), z, expected);
+    gnomon::receive(run, map.view().row_span(7), z, intensity);
+    CHECK(intensity == expected);
+    CHECK(run.problem().sentence.find("GL_EXT_texture_norm16") != std::string::npos);
+    CHECK(fake.calls["CreateProgram"] == 0);
 }
 
 TEST_CASE("a pass for receivers of each kind compiles the main that is theirs, and finds their texture") {

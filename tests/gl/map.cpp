@@ -153,9 +153,23 @@ TEST_CASE("maps of one backend share their programs") {
     CHECK(b.fake.objects["program"].size() == 8);
 }
 
+TEST_CASE("a backend that forgot what it compiled compiles it anew") {
+    bench b("3.3");
+    gl::backend run(b.context);
+    static_cast<void>(map_of<gnomon::rg8>({64, 64}, run));
+    b.fake.calls.clear();
+    run.forget();
+    CHECK(b.fake.calls.empty());
+    const map_of<gnomon::rg8> map({64, 64}, run);
+    CHECK(b.fake.calls["CreateProgram"] == 4);
+}
+
 TEST_CASE("an empty frame after an empty frame calls no function of GL, nor does a map of no texels ever") {
     bench b("3.3");
     map_of<gnomon::rgb8> map({64, 64, 8}, gl::backend(b.context));
+    b.fake.calls.clear();
+    static_cast<void>(map.soft()); // clear, as is known
+    CHECK(b.fake.calls.empty());
     frame(map);
     map.clear();
     map.filter(); // clears what is left
@@ -206,7 +220,8 @@ TEST_CASE("more rectangles than fit into one draw take two") {
     map_of<gnomon::rg8> map({64, 64, 8}, gl::backend(b.context));
     b.fake.calls.clear();
     for (int i = 0; i < gl::rectangle_list::capacity + 1; ++i) map.cast({i % 60, i / 60, i % 60 + 1, i / 60 + 1}, 0.5f);
-    static_cast<void>(map.caster_framebuffer()); // who asks for it finds all in it
+    CHECK(b.fake.calls["DrawArraysInstanced"] == 1); // there is no room for the last
+    static_cast<void>(map.caster_framebuffer());     // who asks for it finds all in it
     CHECK(b.fake.calls["DrawArraysInstanced"] == 2);
 }
 
