@@ -25,11 +25,15 @@ struct version {
     const char* text;
     std::vector<std::string> extensions;
 };
-const version versions[] = {
-    {"3.3", {}},           {"3.3", {"GL_ARB_clip_control"}},
-    {"4.1", {}},           {"4.5", {}},
-    {"OpenGL ES 3.0", {}}, {"OpenGL ES 3.0", {"GL_EXT_clip_control", "GL_EXT_depth_clamp", "GL_EXT_clip_cull_distance"}},
-    {"OpenGL ES 3.1", {}}, {"OpenGL ES 3.2", {}}};
+const version versions[] = {{"3.3", {}},
+                            {"3.3", {"GL_ARB_clip_control"}},
+                            {"4.0", {}},
+                            {"4.1", {}},
+                            {"4.5", {}},
+                            {"OpenGL ES 3.0", {}},
+                            {"OpenGL ES 3.0", {"GL_EXT_clip_control", "GL_EXT_depth_clamp", "GL_EXT_clip_cull_distance"}},
+                            {"OpenGL ES 3.1", {}},
+                            {"OpenGL ES 3.2", {}}};
 
 /// Changes all that a pass may: what a guard sets is set by it already.
 void pass(const gl::context& c) {

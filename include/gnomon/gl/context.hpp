@@ -104,7 +104,7 @@ class extension_list {
     std::string names_ = " ";
 };
 
-[[nodiscard]] inline int integer(const functions& gl, unsigned name, int otherwise) noexcept {
+[[nodiscard]] inline int integer(const functions& gl, unsigned name, int otherwise = 0) noexcept {
     int value = otherwise;
     gl.GetIntegerv(name, &value);
     return value;
@@ -141,10 +141,10 @@ inline void read_capabilities(context& c) {
     else if (c.es && extensions.has("EXT_clip_control") && gl.ClipControlEXT != nullptr)
         c.clip_control = clip_control::ext;
 
-    c.max_texture_size = integer(gl, enums::max_texture_size, 0);
+    c.max_texture_size = integer(gl, enums::max_texture_size);
     c.max_draw_buffers = c.since(33, 32) ? integer(gl, enums::max_draw_buffers, 1) : 1;
     c.max_viewports = c.since(41, never) ? integer(gl, enums::max_viewports, 1) : 1;
-    c.max_clip_distances = es_needs(never, "EXT_clip_cull_distance") ? integer(gl, enums::max_clip_distances, 0) : 0;
+    c.max_clip_distances = es_needs(never, "EXT_clip_cull_distance") ? integer(gl, enums::max_clip_distances) : 0;
 }
 
 } // namespace detail
