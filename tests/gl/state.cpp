@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
@@ -229,6 +230,48 @@ TEST_CASE("a context that answers with one mode for all polygons has it back for
         CHECK(fake.get(enums::polygon_mode)[0] < enums::fill + 1);
     }
     CHECK(fake.get(enums::polygon_mode) == test::fake_gl::values{double{enums::line}, double{enums::line}});
+    fake.calls.clear();
+    {
+        const gl::state_guard<gl::state_policy::restore> guard(c);
+    }
+    CHECK(fake.calls["PolygonMode"] == 2); // a core profile takes no face alone
+}
+
+TEST_CASE("a restoring guard asks for nothing that a context has not") {
+    for (const char* version : {"OpenGL ES 3.0", "3.3", "4.5"}) {
+        test::fake_gl fake(version);
+        const gl::context c = *gl::context::of(fake.table);
+        fake.table.GetIntegerv = [](unsigned name, int* to) {
+            const bool es = test::fake_gl::current()->version.front() == 'O', latest = test::fake_gl::current()->version == "4.5";
+            CHECK(name != 0);
+            CHECK((name != enums::polygon_mode || !es));
+            CHECK(((name != enums::clip_origin && name != enums::clip_depth_mode) || latest));
+            *to = static_cast<int>(test::fake_gl::current()->get(name)[0]);
+        };
+        fake.table.GetIntegeri_v = [](unsigned name, unsigned index, int* to) {
+            CHECK(name != 0);
+            *to = static_cast<int>(test::fake_gl::current()->get(name, index)[0]);
+        };
+        {
+            const gl::state_guard<gl::state_policy::restore> guard(c, 0);
+        }
+        CHECK(fake.wrong == "");
+    }
+}
+
+TEST_CASE("of a context with two draw buffers and two viewports, a restoring guard keeps both of each") {
+    test::fake_gl fake("4.5");
+    for (const unsigned limit : {enums::max_draw_buffers, enums::max_viewports}) fake.put(limit, 0, 2);
+    const gl::context c = *gl::context::of(fake.table);
+    c.gl->Enablei(enums::blend, 1);
+    c.gl->ColorMaski(1, 0, 1, 0, 1);
+    c.gl->Enablei(enums::scissor_test, 1);
+    c.gl->ViewportIndexedf(1, 0.5f, 1.5f, 2.5f, 3.5f);
+    const auto before = fake.state;
+    {
+        const gl::state_guard<gl::state_policy::restore> guard(c);
+    }
+    CHECK(differing(fake, before) == "");
 }
 
 TEST_CASE("of a context with more of everything than there is room for, a restoring guard keeps the first") {
@@ -236,6 +279,9 @@ TEST_CASE("of a context with more of everything than there is room for, a restor
     for (const unsigned limit : {enums::max_draw_buffers, enums::max_viewports, enums::max_clip_distances}) fake.put(limit, 0, 64);
     const gl::context c = *gl::context::of(fake.table);
     c.gl->Enable(enums::clip_distance0);
+    c.gl->Enable(enums::clip_distance0 + 24); // the 40th switch
+    const gl::sampler first(c);
+    c.gl->BindSampler(0, first.name());
     fake.calls.clear();
     {
         const gl::state_guard<gl::state_policy::restore> guard(c, 8);
@@ -244,4 +290,6 @@ TEST_CASE("of a context with more of everything than there is room for, a restor
     CHECK(fake.calls["DepthRangeIndexed"] == 16);
     CHECK(fake.calls["BindSampler"] == 2 * 8);
     CHECK(fake.get(enums::clip_distance0)[0] > 0);
+    CHECK(fake.get(enums::clip_distance0 + 24)[0] > 0);
+    CHECK(static_cast<unsigned>(fake.get(enums::sampler_binding)[0]) == first.name());
 }
