@@ -20,8 +20,8 @@ TEST_CASE("a pass begins with all of its state set, whatever the pass before it 
         unsigned passes;
         bool written;
     };
-    for (const char* version : {"3.3", "OpenGL ES 3.0"}) {
-        fake_gl fake(version);
+    for (const char* text : {"3.3", "OpenGL ES 3.0"}) {
+        fake_gl fake(text);
         const gl::context c = *gl::context::of(fake.table);
         const auto state = [&fake](unsigned name) { return static_cast<unsigned>(fake.get(name)[0]); };
         const gl::framebuffer into(c);
