@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cstddef>
 #include <initializer_list>
 #include <map>
 #include <set>
@@ -197,6 +198,10 @@ TEST_CASE("a program is linked with both its shaders and all its attributes, and
     bench b("3.3");
     static std::set<unsigned> attached;
     static std::map<unsigned, std::string> bound;
+    b.fake.table.ShaderSource = [](unsigned, int texts, const char* const* text, const int* length) {
+        CHECK(texts == 1);
+        test::fake_gl::current()->sources.emplace_back(*text, static_cast<std::size_t>(*length));
+    };
     b.fake.table.AttachShader = [](unsigned, unsigned shader) { attached.insert(shader); };
     b.fake.table.DetachShader = [](unsigned, unsigned shader) { attached.erase(shader); };
     b.fake.table.BindAttribLocation = [](unsigned, unsigned index, const char* name) { bound[index] = name; };
