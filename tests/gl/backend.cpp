@@ -12,6 +12,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -202,4 +203,54 @@ TEST_CASE("a pass for receivers of each kind compiles the main that is theirs, a
     makes(gl::receivers::texels, gl::receive_texels_main_text, "gnomon_depths");
     makes(gl::receivers::points, gl::receive_points_main_text, "gnomon_points");
     makes(gl::receivers::screen, gl::receive_screen_main_text, "gnomon_depths");
+}
+
+TEST_CASE("sizes, texture units, a rule and a matrix reach the uniforms that have their names") {
+    using numbers = std::vector<float>;
+    static std::vector<std::string> names;
+    static std::map<std::string, numbers> told;
+    test::fake_gl fake("3.3");
+    fake.table.GetUniformLocation = [](unsigned, const char* name) {
+        names.emplace_back(name);
+        return static_cast<int>(names.size()) - 1;
+    };
+    static const auto name_at = [](int location) { return names.at(static_cast<std::size_t>(location)); };
+    fake.table.Uniform1i = [](int at, int a) { told[name_at(at)] = {static_cast<float>(a)}; };
+    fake.table.Uniform2i = [](int at, int a, int b) { told[name_at(at)] = {static_cast<float>(a), static_cast<float>(b)}; };
+    fake.table.Uniform1f = [](int at, float a) { told[name_at(at)] = {a}; };
+    fake.table.Uniform4f = [](int at, float a, float b, float c, float d) { told[name_at(at)] = {a, b, c, d}; };
+    fake.table.UniformMatrix4fv = [](int at, int count, unsigned char transposed, const float* values) {
+        CHECK(count == 1);
+        CHECK(transposed == 0);
+        told[name_at(at)] = numbers(values, values + 16);
+    };
+    using Texel = gnomon::rgb8;
+    const gl::context c = *gl::context::of(fake.table);
+    auto pass = *gl::receive_pass<Texel>::make(c, gl::receivers::screen);
+    constexpr float to_map[16] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
+    for (const bool lit_beyond : {false, true}) {
+        gnomon::rule by;
+        by.caster = {.roundings = 2, .depth = 0.125f};
+        by.far_bound = {.roundings = 5, .depth = 0.25f};
+        by.fade = 0.5f;
+        by.lit_beyond = lit_beyond;
+        told.erase("gnomon_lit_beyond");
+        pass.draw(c, {0, {17, 19}}, 0, 0, by, to_map);
+        const auto bias = [](const gnomon::bias& b) {
+            const auto steps = gnomon::bias_steps<Texel, float>::of(b);
+            return numbers{steps.depth_less, steps.depth_share, steps.mask_more, steps.mask_share};
+        };
+        CHECK(bias(by.caster) != bias(by.far_bound));
+        CHECK(told["gnomon_size"] == numbers{17, 19});
+        CHECK(told["gnomon_map"] == numbers{0});
+        CHECK(told["gnomon_depths"] == numbers{1});
+        CHECK(told["gnomon_lit_beyond"] == numbers{lit_beyond ? 1.0f : 0.0f});
+        CHECK(told["gnomon_caster_bias"] == bias(by.caster));
+        CHECK(told["gnomon_bound_bias"] == bias(by.far_bound));
+        CHECK(told["gnomon_fade"] == numbers{0.5f});
+        CHECK(told["gnomon_to_map"] == numbers(to_map, to_map + 16));
+        CHECK(told["gnomon_caster_nearer"] == numbers{gnomon::bias_steps<Texel, float>::of(by.caster).nearer});
+        CHECK(told["gnomon_bound_nearer"] == numbers{gnomon::bias_steps<Texel, float>::of(by.far_bound).nearer});
+        CHECK(told.size() == 10);
+    }
 }
