@@ -32,6 +32,8 @@ TEST_CASE("versions are read from what drivers write") {
         {".3", false, 0},
         {"OpenGL ES", true, 0},
         {"nothing like it", false, 0},
+        {"0.5 of one", false, 0},
+        {"1.9", false, 19},
         {"99999999999999999999.1", false, 0},
     };
     for (const auto& w : written) {
@@ -39,6 +41,14 @@ TEST_CASE("versions are read from what drivers write") {
         CHECK(gl::parse_version(w.text).es == w.es);
         CHECK(gl::parse_version(w.text).number == w.number);
     }
+}
+
+TEST_CASE("a context that was not asked promises nothing") {
+    constexpr gl::context none;
+    CHECK((none.gl == nullptr && !none.es && none.version == 0));
+    CHECK_FALSE((none.norm16 || none.color_buffer_half || none.color_buffer_float || none.float_blend || none.float_linear));
+    CHECK((!none.depth_clamp && none.clip_control == gl::clip_control::none));
+    CHECK((none.max_texture_size == 0 && none.max_draw_buffers == 0 && none.max_viewports == 0 && none.max_clip_distances == 0));
 }
 
 TEST_CASE("GL 3.3, GL 4.5 and OpenGL ES 3.0 are taken") {
@@ -53,7 +63,8 @@ TEST_CASE("GL 3.3, GL 4.5 and OpenGL ES 3.0 are taken") {
 }
 
 TEST_CASE("too old a context is refused with its own words") {
-    for (const char* version : {"3.2 (Core Profile) Mesa", "2.1 Metal - 88", "OpenGL ES 2.0 Mesa", "OpenGL ES-CM 1.1", "unknown"}) {
+    for (const char* version :
+         {"3.2 (Core Profile) Mesa", "2.1 Metal - 88", "OpenGL ES 2.0 Mesa", "OpenGL ES 2.9", "OpenGL ES-CM 1.1", "unknown"}) {
         test::fake_gl fake(version);
         const auto made = gl::context::of(fake.table);
         CHECK_FALSE(made);
@@ -94,7 +105,9 @@ TEST_CASE("what a context can do is said by its version and extensions, never by
         CHECK(c.max_draw_buffers == 8);
         CHECK(c.max_viewports == 1);
         CHECK(c.max_clip_distances == 8);
+        CHECK(of("4.0").max_viewports == 1);
         CHECK(of("4.1").max_viewports == 16);
+        CHECK(of("4.4").clip_control == gl::clip_control::none);
         CHECK(of("4.5").clip_control == gl::clip_control::core);
         CHECK(of("3.3", {"GL_ARB_clip_control"}).clip_control == gl::clip_control::core);
     }
@@ -117,6 +130,11 @@ TEST_CASE("what a context can do is said by its version and extensions, never by
         CHECK(of("OpenGL ES 3.0", {"GL_EXT_depth_clamp"}).depth_clamp);
         CHECK(of("OpenGL ES 3.0", {"GL_EXT_clip_cull_distance"}).max_clip_distances == 8);
         CHECK(of("OpenGL ES 3.0", {"GL_EXT_clip_control"}).clip_control == gl::clip_control::ext);
+    }
+    SUBCASE("ES 3.1 neither draws into floats nor has state for each draw buffer") {
+        const gl::context c = of("OpenGL ES 3.1");
+        CHECK_FALSE((c.color_buffer_half || c.color_buffer_float));
+        CHECK(c.max_draw_buffers == 1);
     }
     SUBCASE("ES 3.2 draws into floats, but blends no 32 bits") {
         const gl::context c = of("OpenGL ES 3.2");
@@ -141,6 +159,9 @@ TEST_CASE("a lost context says so where it can, and GL's errors come as sentence
     fake.errors = {gl::enums::invalid_operation, gl::enums::out_of_memory};
     CHECK(c.check("drawing").sentence == "gnomon: drawing: GL_INVALID_OPERATION");
     CHECK_FALSE(c.check("drawing")); // all flags are read
+    fake.calls.clear();
+    CHECK_FALSE(c.check("drawing"));
+    CHECK(fake.calls["GetError"] == 1); // and none after the last
     for (const auto& [error, name] : {std::pair{0x500u, "GL_INVALID_ENUM"},
                                       {0x501u, "GL_INVALID_VALUE"},
                                       {0x505u, "GL_OUT_OF_MEMORY"},
@@ -172,6 +193,25 @@ TEST_CASE("GL before 4.5 is never lost, for it cannot tell, and its error flags 
     fake.calls.clear();
     CHECK_FALSE(c.lost());
     CHECK(fake.calls.empty());
+}
+
+TEST_CASE("ES 3.2 says that it is lost without its error flags, ES 3.1 by them") {
+    for (const char* version : {"OpenGL ES 3.1", "OpenGL ES 3.2"}) {
+        test::fake_gl fake(version);
+        const auto c = *gl::context::of(fake.table);
+        fake.lost = true;
+        CHECK(c.lost());
+        CHECK(fake.calls["GetError"] == (c.version < 32 ? 1 : 0));
+        CHECK(fake.wrong == "");
+    }
+}
+
+TEST_CASE("a context that does not answer has no extension, textures of no size, and one of what it must have") {
+    test::fake_gl fake("4.5");
+    fake.failing = {{"GetIntegerv", 0}};
+    const auto c = *gl::context::of(fake.table);
+    CHECK(fake.calls["GetStringi"] == 0);
+    CHECK((c.max_texture_size == 0 && c.max_draw_buffers == 1 && c.max_viewports == 1 && c.max_clip_distances == 0));
 }
 
 TEST_CASE("an extension that a driver counts and does not name is none") {

@@ -60,6 +60,22 @@ TEST_CASE("every texel has a format as wide as itself or one channel wider") {
     static_assert(gl::format_of<rgba8>.channels == 4 && gl::format_of<rg32f>.upload_type == gl::enums::type_float);
 }
 
+TEST_CASE("a format has the channels that it is uploaded in") {
+    for (const gl::format& f :
+         {gl::rg8_format, gl::rg16_format, gl::rg16f_format, gl::rg32f_format, gl::rg16ui_format, gl::rg32ui_format}) {
+        CAPTURE(f.name);
+        CHECK((f.upload == gl::enums::rg || f.upload == gl::enums::rg_integer));
+        CHECK(f.channels == 2);
+    }
+    for (const gl::format& f :
+         {gl::rgba8_format, gl::rgba16_format, gl::rgba16f_format, gl::rgba32f_format, gl::rgba16ui_format, gl::rgba32ui_format}) {
+        CAPTURE(f.name);
+        CHECK((f.upload == gl::enums::rgba || f.upload == gl::enums::rgba_integer));
+        CHECK(f.channels == 4);
+    }
+    CHECK(gl::depth_format.channels == 1);
+}
+
 TEST_CASE("scratch holds what it is said to hold, and not twice as much") {
     CHECK(gl::scratch_format(2, 65535) == gl::rg16ui_format);
     CHECK(gl::scratch_format(2, 65536) == gl::rg32ui_format);

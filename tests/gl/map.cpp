@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <bit>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -49,6 +51,15 @@ struct touched {
 
 bool says(const gl::problem& why, const char* part) { return why.sentence.find(part) != std::string::npos; }
 
+template <typename Texel>
+constexpr bool has_bounds = requires(gl::passes<Texel, gnomon::binomial<3>>& passes, const gl::context& c,
+                                     const gl::map_targets& to, void (&walk)(void (*)(texel_rect))) {
+    gl::begin_bounds<Texel>(c, to);
+    passes.bound(c, to, walk);
+};
+template <typename Texel>
+constexpr bool begins_bounds = requires(const gl::context& c, const gl::map_targets& to) { gl::begin_bounds<Texel>(c, to); };
+static_assert(has_bounds<gnomon::rgb8> && !has_bounds<gnomon::rg8> && !begins_bounds<gnomon::rg8>);
 static_assert(!std::is_copy_constructible_v<map_of<gnomon::rg8>> && std::is_nothrow_move_constructible_v<map_of<gnomon::rg8>>);
 } // namespace
 
@@ -142,9 +153,23 @@ TEST_CASE("maps of one backend share their programs") {
     CHECK(b.fake.objects["program"].size() == 8);
 }
 
+TEST_CASE("a backend that forgot what it compiled compiles it anew") {
+    bench b("3.3");
+    gl::backend run(b.context);
+    static_cast<void>(map_of<gnomon::rg8>({64, 64}, run));
+    b.fake.calls.clear();
+    run.forget();
+    CHECK(b.fake.calls.empty());
+    const map_of<gnomon::rg8> map({64, 64}, run);
+    CHECK(b.fake.calls["CreateProgram"] == 4);
+}
+
 TEST_CASE("an empty frame after an empty frame calls no function of GL, nor does a map of no texels ever") {
     bench b("3.3");
     map_of<gnomon::rgb8> map({64, 64, 8}, gl::backend(b.context));
+    b.fake.calls.clear();
+    static_cast<void>(map.soft()); // clear, as is known
+    CHECK(b.fake.calls.empty());
     frame(map);
     map.clear();
     map.filter(); // clears what is left
@@ -195,7 +220,8 @@ TEST_CASE("more rectangles than fit into one draw take two") {
     map_of<gnomon::rg8> map({64, 64, 8}, gl::backend(b.context));
     b.fake.calls.clear();
     for (int i = 0; i < gl::rectangle_list::capacity + 1; ++i) map.cast({i % 60, i / 60, i % 60 + 1, i / 60 + 1}, 0.5f);
-    static_cast<void>(map.caster_framebuffer()); // who asks for it finds all in it
+    CHECK(b.fake.calls["DrawArraysInstanced"] == 1); // there is no room for the last
+    static_cast<void>(map.caster_framebuffer());     // who asks for it finds all in it
     CHECK(b.fake.calls["DrawArraysInstanced"] == 2);
 }
 
@@ -240,6 +266,29 @@ TEST_CASE("a map on a backend that restores leaves all state as it was, at its m
     }
 }
 
+TEST_CASE("casters, their depths and the soft map begin clear") {
+    bench b("3.3");
+    using cleared = std::pair<unsigned, unsigned>; // a framebuffer, and what of it
+    static std::vector<cleared> all;
+    b.fake.table.ClearBufferfv = [](unsigned what, int index, const float* to) {
+        CHECK(index == 0);
+        for (int i = 0; i < (what == gl::enums::color ? 4 : 1); ++i) CHECK(std::bit_cast<std::uint32_t>(to[i]) == 0);
+        all.emplace_back(static_cast<unsigned>(test::fake_gl::current()->get(gl::enums::draw_framebuffer_binding)[0]), what);
+    };
+    const map_of<gnomon::rg8> map({64, 64}, gl::backend(b.context));
+    const gl::map_targets& to = map.targets();
+    CHECK((all == std::vector<cleared>{
+                      {to.into_casters, gl::enums::color}, {to.into_casters, gl::enums::depth}, {to.into_soft, gl::enums::color}}));
+}
+
+TEST_CASE("names that nobody gave are 0, GL's for nothing and for the screen") {
+    constexpr gl::map_targets map;
+    for (const unsigned name : {map.casters, map.scratch, map.soft, map.into_casters, map.into_scratch, map.into_soft})
+        CHECK(name == 0);
+    CHECK(gl::pass_state{}.framebuffer == 0);
+    CHECK(gl::mask_target{}.framebuffer == 0);
+}
+
 TEST_CASE("textures that an engine lends are drawn into, and stay when the map goes") {
     bench b("3.3");
     unsigned lent[2] = {};
@@ -272,6 +321,9 @@ TEST_CASE("a map that forgets a lost context calls nothing of GL again, nor does
     b.fake.calls.clear();
     map->forget();
     CHECK(says(map->problem(), "lost"));
+    CHECK(map->soft_texture() == 0);
+    CHECK(map->caster_framebuffer() == 0); // what was cast before is not drawn
+    map->filter();
     CHECK(map->shadow(5, 5, 0.9f) <= 0.0f);
     CHECK(frame(*map) <= 0.0f);
     map.reset();

@@ -6,8 +6,14 @@
 
 #include <doctest/doctest.h>
 
+#include <cstddef>
+#include <initializer_list>
+#include <map>
+#include <set>
+#include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace gl = gnomon::gl;
 
@@ -144,6 +150,70 @@ TEST_CASE("a framebuffer reads from its first colour, and one of depth alone fro
     CHECK(b.fake.read_buffer == gl::enums::none);
 }
 
+TEST_CASE("a texture is one level of the size that was asked for, at least a texel, and unfiltered up to its edge") {
+    bench b("3.3");
+    static std::vector<gnomon::extent> sizes;
+    static std::map<unsigned, int> parameters;
+    b.fake.table.TexImage2D = [](unsigned, int level, int, int width, int height, int border, unsigned, unsigned, const void*) {
+        CHECK(level == 0);
+        CHECK(border == 0);
+        sizes.push_back({width, height});
+    };
+    b.fake.table.TexParameteri = [](unsigned, unsigned name, int value) { parameters[name] = value; };
+    for (const gnomon::extent size : {gnomon::extent{5, 9}, {0, -5}, {1, 1}, {-2, 3}, {4, 0}})
+        CHECK(gl::make_texture(b.context, gl::rg8_format, size));
+    CHECK((sizes == std::vector<gnomon::extent>{{5, 9}, {1, 1}, {1, 1}, {1, 3}, {4, 1}}));
+    constexpr int nearest = gl::enums::nearest, edge = gl::enums::clamp_to_edge;
+    CHECK((parameters == std::map<unsigned, int>{{gl::enums::texture_min_filter, nearest},
+                                                 {gl::enums::texture_mag_filter, nearest},
+                                                 {gl::enums::texture_wrap_s, edge},
+                                                 {gl::enums::texture_wrap_t, edge},
+                                                 {gl::enums::texture_max_level, 0}}));
+}
+
+TEST_CASE("a framebuffer draws into all its colours, in their order, and has a depth only where one is given") {
+    bench b("3.3");
+    using names = std::map<unsigned, unsigned>;
+    static names attached;
+    static std::vector<unsigned> drawn;
+    b.fake.table.FramebufferTexture2D = [](unsigned, unsigned where, unsigned, unsigned name, int level) {
+        CHECK(level == 0);
+        attached[where] = name;
+    };
+    b.fake.table.DrawBuffers = [](int count, const unsigned* buffers) { drawn.assign(buffers, buffers + count); };
+    const auto draws_into = [&](std::initializer_list<unsigned> colors, const names& expected, const auto&... depth) {
+        attached.clear();
+        CHECK(gl::make_framebuffer(b.context, colors, depth...));
+        CHECK(attached == expected);
+        CHECK(drawn.size() == colors.size());
+        for (std::size_t i = 0; i < drawn.size(); ++i) CHECK(drawn[i] == gl::enums::color_attachment0 + i);
+    };
+    constexpr unsigned first = gl::enums::color_attachment0, depth = gl::enums::depth_attachment;
+    draws_into({7u, 3u, 9u, 5u}, {{first, 7u}, {first + 1, 3u}, {first + 2, 9u}, {first + 3, 5u}, {depth, 1u}}, 1u);
+    draws_into({7u}, {{first, 7u}});
+    draws_into({}, {{depth, 8u}}, 8u);
+}
+
+TEST_CASE("a program is linked with both its shaders and all its attributes, and then lets go of the shaders") {
+    bench b("3.3");
+    static std::set<unsigned> attached;
+    static std::map<unsigned, std::string> bound;
+    b.fake.table.ShaderSource = [](unsigned, int texts, const char* const* text, const int* length) {
+        CHECK(texts == 1);
+        test::fake_gl::current()->sources.emplace_back(*text, static_cast<std::size_t>(*length));
+    };
+    b.fake.table.AttachShader = [](unsigned, unsigned shader) { attached.insert(shader); };
+    b.fake.table.DetachShader = [](unsigned, unsigned shader) { attached.erase(shader); };
+    b.fake.table.BindAttribLocation = [](unsigned, unsigned index, const char* name) { bound[index] = name; };
+    b.fake.table.LinkProgram = [](unsigned) {
+        CHECK(attached.size() == 2);
+        CHECK((bound == std::map<unsigned, std::string>{{0, "corner"}, {3, "colour"}}));
+    };
+    CHECK(gl::make_program(b.context, "v", "f", {{0, "corner"}, {3, "colour"}}));
+    CHECK(attached.empty());
+    CHECK((b.fake.sources == std::vector<std::string>{"v", "f"}));
+}
+
 TEST_CASE("a program of which GL makes a part leaks nothing") {
     bench b("3.3");
     for (const auto& [name, made] : {std::pair{"CreateShader", 0}, {"CreateShader", 1}, {"CreateProgram", 0}}) {
@@ -163,6 +233,8 @@ TEST_CASE("a rejected shader brings the driver's log, and leaks nothing") {
     b.fake.shader_log = "one line\nand another \n ";
     CHECK(gl::make_program(b.context, "v", "f").error().sentence ==
           "gnomon: the driver rejects the vertex shader: one line\nand another");
+    b.fake.shader_log = "x";
+    CHECK(gl::make_program(b.context, "v", "f").error().sentence == "gnomon: the driver rejects the vertex shader: x");
     b.fake.shader_log = "\n";
     CHECK(gl::make_program(b.context, "v", "f").error().sentence == "gnomon: the driver rejects the vertex shader: ");
     b.fake.shader_log.clear();
@@ -171,6 +243,13 @@ TEST_CASE("a rejected shader brings the driver's log, and leaks nothing") {
     b.fake.failing = {{"GetProgramiv", 0}}; // has no log either
     CHECK(gl::make_program(b.context, "v", "f").error().sentence ==
           "gnomon: the driver does not link the program: the driver says nothing");
+    b.fake.failing = {{"GetShaderiv", 0}};
+    CHECK(gl::make_program(b.context, "v", "f").error().sentence ==
+          "gnomon: the driver rejects the vertex shader: the driver says nothing");
+    b.fake.failing.clear();
+    b.fake.table.GetShaderiv = [](unsigned, unsigned name, int* to) { *to = name == gl::enums::info_log_length; }; // its zero
+    CHECK(gl::make_program(b.context, "v", "f").error().sentence ==
+          "gnomon: the driver rejects the vertex shader: the driver says nothing");
     CHECK(b.fake.alive() == 0);
     CHECK(b.fake.wrong == "");
 }

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
@@ -25,11 +26,15 @@ struct version {
     const char* text;
     std::vector<std::string> extensions;
 };
-const version versions[] = {
-    {"3.3", {}},           {"3.3", {"GL_ARB_clip_control"}},
-    {"4.1", {}},           {"4.5", {}},
-    {"OpenGL ES 3.0", {}}, {"OpenGL ES 3.0", {"GL_EXT_clip_control", "GL_EXT_depth_clamp", "GL_EXT_clip_cull_distance"}},
-    {"OpenGL ES 3.1", {}}, {"OpenGL ES 3.2", {}}};
+const version versions[] = {{"3.3", {}},
+                            {"3.3", {"GL_ARB_clip_control"}},
+                            {"4.0", {}},
+                            {"4.1", {}},
+                            {"4.5", {}},
+                            {"OpenGL ES 3.0", {}},
+                            {"OpenGL ES 3.0", {"GL_EXT_clip_control", "GL_EXT_depth_clamp", "GL_EXT_clip_cull_distance"}},
+                            {"OpenGL ES 3.1", {}},
+                            {"OpenGL ES 3.2", {}}};
 
 /// Changes all that a pass may: what a guard sets is set by it already.
 void pass(const gl::context& c) {
@@ -108,6 +113,11 @@ TEST_CASE_TEMPLATE("under either policy a pass starts from one state, whatever t
                    gl::state_guard<gl::state_policy::dirty>, gl::state_guard<gl::state_policy::restore>) {
     for (const version& v : versions) {
         CAPTURE(v.text);
+        const auto known = [](auto state) { // what was never set is 0
+            std::erase_if(
+                state, [](const auto& s) { return s.second == test::fake_gl::values{} || set_by_pass.count(s.first.first) != 0; });
+            return state;
+        };
         const auto forced = [&](bool hostile) {
             test::fake_gl fake(v.text, v.extensions);
             const gl::context c = *gl::context::of(fake.table);
@@ -115,15 +125,16 @@ TEST_CASE_TEMPLATE("under either policy a pass starts from one state, whatever t
             std::optional<test::hostile_host> host;
             if (hostile) host.emplace(c, roll, units, 0u);
             const Guard guard(c, units);
-            auto state = fake.state;
-            std::erase_if(
-                state, [](const auto& s) { return s.second == test::fake_gl::values{} || set_by_pass.count(s.first.first) != 0; });
             CHECK(fake.wrong == "");
-            return state;
+            return known(fake.state);
         };
-        const auto kind = forced(false);
-        CHECK(kind.size() > 20);
-        CHECK(forced(true) == kind);
+        test::fake_gl fresh(v.text, v.extensions); // a new context's, but for what suits texels
+        fresh.put(enums::dither, 0, 0);
+        for (const unsigned packing : {enums::pack_alignment, enums::unpack_alignment}) fresh.put(packing, 0, 1);
+        const auto expected = known(fresh.state);
+        CHECK(expected.size() > 20);
+        CHECK(forced(false) == expected);
+        CHECK(forced(true) == expected);
     }
 }
 
@@ -138,10 +149,40 @@ TEST_CASE("a dirty guard asks nothing of GL, and puts nothing back") {
             inside = fake.state;
         }
         CHECK(differing(fake, inside) == "");
+        CHECK(fake.calls["BindSampler"] == 4);
         for (const auto& call : fake.calls)
             CHECK_MESSAGE((call.first.substr(0, 3) != "Get" && call.first.substr(0, 2) != "Is"), call.first);
         CHECK(fake.wrong == "");
     }
+}
+
+TEST_CASE("no context is asked for a switch or a pixel store that it has not") {
+    const auto listed = [](const char* version, std::vector<std::string> extensions = {}) {
+        test::fake_gl fake(version, std::move(extensions));
+        const gl::context c = *gl::context::of(fake.table);
+        std::set<unsigned> switches, stores;
+        gl::detail::for_each_switch(c, [&](unsigned what) { switches.insert(what); });
+        gl::detail::for_each_pixel_store(c, [&](unsigned name, int) { stores.insert(name); });
+        CHECK(stores.size() == (c.es ? 8 : 12));
+        return switches;
+    };
+    const std::set<unsigned> everywhere = listed("OpenGL ES 3.0");
+    CHECK(everywhere.size() == 8);
+    const auto more = [&](const std::set<unsigned>& all) {
+        std::set<unsigned> rest = all;
+        for (const unsigned what : everywhere) CHECK(rest.erase(what) == 1);
+        return rest;
+    };
+    const std::set<unsigned> distances{enums::clip_distance0,     enums::clip_distance0 + 1, enums::clip_distance0 + 2,
+                                       enums::clip_distance0 + 3, enums::clip_distance0 + 4, enums::clip_distance0 + 5,
+                                       enums::clip_distance0 + 6, enums::clip_distance0 + 7};
+    CHECK((more(listed("OpenGL ES 3.1")) == std::set<unsigned>{enums::sample_mask}));
+    CHECK((more(listed("OpenGL ES 3.0", {"GL_EXT_depth_clamp"})) == std::set<unsigned>{enums::depth_clamp}));
+    CHECK(more(listed("OpenGL ES 3.0", {"GL_EXT_clip_cull_distance"})) == distances);
+    std::set<unsigned> desktop{enums::color_logic_op,      enums::framebuffer_srgb, enums::polygon_smooth, enums::primitive_restart,
+                               enums::sample_alpha_to_one, enums::sample_mask,      enums::depth_clamp};
+    desktop.insert(distances.begin(), distances.end());
+    CHECK(more(listed("3.3")) == desktop);
 }
 
 TEST_CASE("a restoring guard pauses transform feedback that runs, and leaves alone what is paused or inactive") {
@@ -189,6 +230,48 @@ TEST_CASE("a context that answers with one mode for all polygons has it back for
         CHECK(fake.get(enums::polygon_mode)[0] < enums::fill + 1);
     }
     CHECK(fake.get(enums::polygon_mode) == test::fake_gl::values{double{enums::line}, double{enums::line}});
+    fake.calls.clear();
+    {
+        const gl::state_guard<gl::state_policy::restore> guard(c);
+    }
+    CHECK(fake.calls["PolygonMode"] == 2); // a core profile takes no face alone
+}
+
+TEST_CASE("a restoring guard asks for nothing that a context has not") {
+    for (const char* version : {"OpenGL ES 3.0", "3.3", "4.5"}) {
+        test::fake_gl fake(version);
+        const gl::context c = *gl::context::of(fake.table);
+        fake.table.GetIntegerv = [](unsigned name, int* to) {
+            const bool es = test::fake_gl::current()->version.front() == 'O', latest = test::fake_gl::current()->version == "4.5";
+            CHECK(name != 0);
+            CHECK((name != enums::polygon_mode || !es));
+            CHECK(((name != enums::clip_origin && name != enums::clip_depth_mode) || latest));
+            *to = static_cast<int>(test::fake_gl::current()->get(name)[0]);
+        };
+        fake.table.GetIntegeri_v = [](unsigned name, unsigned index, int* to) {
+            CHECK(name != 0);
+            *to = static_cast<int>(test::fake_gl::current()->get(name, index)[0]);
+        };
+        {
+            const gl::state_guard<gl::state_policy::restore> guard(c, 0);
+        }
+        CHECK(fake.wrong == "");
+    }
+}
+
+TEST_CASE("of a context with two draw buffers and two viewports, a restoring guard keeps both of each") {
+    test::fake_gl fake("4.5");
+    for (const unsigned limit : {enums::max_draw_buffers, enums::max_viewports}) fake.put(limit, 0, 2);
+    const gl::context c = *gl::context::of(fake.table);
+    c.gl->Enablei(enums::blend, 1);
+    c.gl->ColorMaski(1, 0, 1, 0, 1);
+    c.gl->Enablei(enums::scissor_test, 1);
+    c.gl->ViewportIndexedf(1, 0.5f, 1.5f, 2.5f, 3.5f);
+    const auto before = fake.state;
+    {
+        const gl::state_guard<gl::state_policy::restore> guard(c);
+    }
+    CHECK(differing(fake, before) == "");
 }
 
 TEST_CASE("of a context with more of everything than there is room for, a restoring guard keeps the first") {
@@ -196,6 +279,9 @@ TEST_CASE("of a context with more of everything than there is room for, a restor
     for (const unsigned limit : {enums::max_draw_buffers, enums::max_viewports, enums::max_clip_distances}) fake.put(limit, 0, 64);
     const gl::context c = *gl::context::of(fake.table);
     c.gl->Enable(enums::clip_distance0);
+    c.gl->Enable(enums::clip_distance0 + 24); // the 40th switch
+    const gl::sampler first(c);
+    c.gl->BindSampler(0, first.name());
     fake.calls.clear();
     {
         const gl::state_guard<gl::state_policy::restore> guard(c, 8);
@@ -204,4 +290,6 @@ TEST_CASE("of a context with more of everything than there is room for, a restor
     CHECK(fake.calls["DepthRangeIndexed"] == 16);
     CHECK(fake.calls["BindSampler"] == 2 * 8);
     CHECK(fake.get(enums::clip_distance0)[0] > 0);
+    CHECK(fake.get(enums::clip_distance0 + 24)[0] > 0);
+    CHECK(static_cast<unsigned>(fake.get(enums::sampler_binding)[0]) == first.name());
 }

@@ -49,7 +49,7 @@ class made_once {
 
 /// A receiver as a texel of four floats.
 struct receiver {
-    float x, y, z, w;
+    float x = {}, y = {}, z = {}, w = {};
 };
 
 /// So many numbers as lines of a texture.
@@ -125,8 +125,8 @@ template <state_policy Policy> class backend_of {
                  const rule& r) const noexcept {
         const int count = lesser(texels.size(), lesser(z.size(), intensity.size()));
         made_->problem = receive_on_gpu<Texel, false>(
-            count, detail::lines_of(count), [&](int i) { return texels[i]; },
-            [&](int i) { return detail::receiver{z[i], 0, 0, 0}; }, intensity, r);
+            count, detail::lines_of(count), [&](int i) { return texels[i]; }, [&](int i) { return detail::receiver{.x = z[i]}; },
+            intensity, r);
         if (made_->problem) gnomon::receive(texels, z, intensity, r);
     }
     template <texel_format Texel>
@@ -135,7 +135,7 @@ template <state_policy Policy> class backend_of {
         const int count = lesser(lesser(x.size(), y.size()), lesser(z.size(), intensity.size()));
         made_->problem = receive_on_gpu<Texel, true>(
             count, map.size(), [&](int i) { return map(i % map.width(), i / map.width()); },
-            [&](int i) { return detail::receiver{x[i], y[i], z[i], 0}; }, intensity, r);
+            [&](int i) { return detail::receiver{.x = x[i], .y = y[i], .z = z[i]}; }, intensity, r);
         if (made_->problem) gnomon::receive(map, x, y, z, intensity, r);
     }
 

@@ -38,6 +38,9 @@ struct version_number {
 /// Which function, if any, turns the clip volume: glClipControl of GL 4.5 and ARB_clip_control, or glClipControlEXT.
 enum class clip_control { none, core, ext };
 
+/// A version that no context has.
+inline constexpr int never = 99;
+
 /// What may be called, and what may be asked for. Made by `of`, passed by const&; each of a host's GL contexts has its own.
 ///
 /// Holds a pointer to the host's `functions`, nothing of GL: it may be copied, kept and thrown away while no context is current.
@@ -60,7 +63,7 @@ struct context {
     int max_viewports = 0;      ///< 1 where there is no array of them
     int max_clip_distances = 0; ///< 0 where GL_CLIP_DISTANCE0 is not there to be set
 
-    /// Is the version at least `desktop` on GL, `embedded` on OpenGL ES? 99 is never.
+    /// Is the version at least `desktop` on GL, `embedded` on OpenGL ES?
     [[nodiscard]] bool since(int desktop, int embedded) const noexcept { return version >= (es ? embedded : desktop); }
 
     /// Asks the context that is current. The functions must outlive what is returned, and all that is made with it.
@@ -101,7 +104,7 @@ class extension_list {
     std::string names_ = " ";
 };
 
-[[nodiscard]] inline int integer(const functions& gl, unsigned name, int otherwise) noexcept {
+[[nodiscard]] inline int integer(const functions& gl, unsigned name, int otherwise = 0) noexcept {
     int value = otherwise;
     gl.GetIntegerv(name, &value);
     return value;
@@ -127,21 +130,21 @@ inline void read_capabilities(context& c) {
     const auto es_needs = [&](int core_since, std::string_view extension) {
         return !c.es || c.version >= core_since || extensions.has(extension);
     };
-    c.norm16 = es_needs(99, "EXT_texture_norm16");
+    c.norm16 = es_needs(never, "EXT_texture_norm16");
     c.color_buffer_float = es_needs(32, "EXT_color_buffer_float");
     c.color_buffer_half = c.color_buffer_float || extensions.has("EXT_color_buffer_half_float");
-    c.float_blend = c.color_buffer_float && es_needs(99, "EXT_float_blend");
-    c.float_linear = es_needs(99, "OES_texture_float_linear");
-    c.depth_clamp = es_needs(99, "EXT_depth_clamp");
-    if ((c.since(45, 99) || (!c.es && extensions.has("ARB_clip_control"))) && gl.ClipControl != nullptr)
+    c.float_blend = c.color_buffer_float && es_needs(never, "EXT_float_blend");
+    c.float_linear = es_needs(never, "OES_texture_float_linear");
+    c.depth_clamp = es_needs(never, "EXT_depth_clamp");
+    if ((c.since(45, never) || (!c.es && extensions.has("ARB_clip_control"))) && gl.ClipControl != nullptr)
         c.clip_control = clip_control::core;
     else if (c.es && extensions.has("EXT_clip_control") && gl.ClipControlEXT != nullptr)
         c.clip_control = clip_control::ext;
 
-    c.max_texture_size = integer(gl, enums::max_texture_size, 0);
+    c.max_texture_size = integer(gl, enums::max_texture_size);
     c.max_draw_buffers = c.since(33, 32) ? integer(gl, enums::max_draw_buffers, 1) : 1;
-    c.max_viewports = c.since(41, 99) ? integer(gl, enums::max_viewports, 1) : 1;
-    c.max_clip_distances = es_needs(99, "EXT_clip_cull_distance") ? integer(gl, enums::max_clip_distances, 0) : 0;
+    c.max_viewports = c.since(41, never) ? integer(gl, enums::max_viewports, 1) : 1;
+    c.max_clip_distances = es_needs(never, "EXT_clip_cull_distance") ? integer(gl, enums::max_clip_distances) : 0;
 }
 
 } // namespace detail

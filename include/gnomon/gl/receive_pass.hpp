@@ -52,7 +52,14 @@ template <texel_format Texel> class receive_pass {
         receive_pass made;
         made.rectangles_ = *std::move(list);
         made.program_ = *std::move(linked);
-        made.find(c);
+        const auto at = [&made, &c](const char* uniform) { return made.program_.location(c, uniform); };
+        made.at_ = {.caster_bias = at("gnomon_caster_bias"),
+                    .caster_nearer = at("gnomon_caster_nearer"),
+                    .lit_beyond = at("gnomon_lit_beyond"),
+                    .bound_bias = at("gnomon_bound_bias"),
+                    .bound_nearer = at("gnomon_bound_nearer"),
+                    .fade = at("gnomon_fade"),
+                    .to_map = at("gnomon_to_map")};
         return made;
     }
 
@@ -69,7 +76,7 @@ template <texel_format Texel> class receive_pass {
     void draw(const context& c, const mask_target& target, unsigned soft, unsigned depths, const rule& by,
               const float (&to_map)[16]) {
         program_.use(c, target.size);
-        c.gl->UniformMatrix4fv(to_map_, 1, 0, to_map);
+        c.gl->UniformMatrix4fv(at_.to_map, 1, 0, to_map);
         draw(c, target, soft, depths, by);
     }
 
@@ -79,32 +86,27 @@ template <texel_format Texel> class receive_pass {
     }
 
   private:
-    void find(const context& c) {
-        caster_bias_ = program_.location(c, "gnomon_caster_bias");
-        caster_nearer_ = program_.location(c, "gnomon_caster_nearer");
-        lit_beyond_ = program_.location(c, "gnomon_lit_beyond");
-        bound_bias_ = program_.location(c, "gnomon_bound_bias");
-        bound_nearer_ = program_.location(c, "gnomon_bound_nearer");
-        fade_ = program_.location(c, "gnomon_fade");
-        to_map_ = program_.location(c, "gnomon_to_map");
-    }
+    /// Where uniforms are; -1 of those that the shader has not, which GL ignores.
+    struct places {
+        int caster_bias, caster_nearer, lit_beyond, bound_bias, bound_nearer, fade, to_map;
+    };
     void set(const context& c, const rule& by) const {
         const auto set_bias = [&c](int bias_at, int nearer_at, const bias& b) {
             const auto steps = bias_steps<Texel, float>::of(b);
             c.gl->Uniform4f(bias_at, steps.depth_less, steps.depth_share, steps.mask_more, steps.mask_share);
             c.gl->Uniform1f(nearer_at, steps.nearer);
         };
-        set_bias(caster_bias_, caster_nearer_, by.caster);
-        c.gl->Uniform1i(lit_beyond_, by.lit_beyond ? 1 : 0);
+        set_bias(at_.caster_bias, at_.caster_nearer, by.caster);
+        c.gl->Uniform1i(at_.lit_beyond, by.lit_beyond);
         if constexpr (Texel::effects.far_bound) {
-            set_bias(bound_bias_, bound_nearer_, by.far_bound);
-            c.gl->Uniform1f(fade_, by.fade);
+            set_bias(at_.bound_bias, at_.bound_nearer, by.far_bound);
+            c.gl->Uniform1f(at_.fade, by.fade);
         }
     }
 
     rectangle_list rectangles_;
     pass_program program_;
-    int caster_bias_ = -1, caster_nearer_ = -1, lit_beyond_ = -1, bound_bias_ = -1, bound_nearer_ = -1, fade_ = -1, to_map_ = -1;
+    places at_ = {};
 };
 
 } // namespace gl

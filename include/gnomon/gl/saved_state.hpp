@@ -15,11 +15,11 @@ class saved_units {
     static constexpr int most = 8;
 
     saved_units(const context& c, int units) noexcept
-        : count_(lesser(units, most)), active_(integer(*c.gl, enums::active_texture, 0)) {
+        : count_(lesser(units, most)), active_(integer(*c.gl, enums::active_texture)) {
         for (int i = 0; i < count_; ++i) {
             c.gl->ActiveTexture(enums::texture0 + static_cast<unsigned>(i));
-            textures_[i] = integer(*c.gl, enums::texture_binding_2d, 0);
-            samplers_[i] = integer(*c.gl, enums::sampler_binding, 0);
+            textures_[i] = integer(*c.gl, enums::texture_binding_2d);
+            samplers_[i] = integer(*c.gl, enums::sampler_binding);
         }
     }
     void restore(const context& c) const noexcept {
@@ -42,7 +42,7 @@ class saved_units {
 class saved_bindings {
   public:
     explicit saved_bindings(const context& c) noexcept {
-        for (int i = 0; i < bindings; ++i) bound_[i] = integer(*c.gl, names[i], 0);
+        for (int i = 0; i < bindings; ++i) bound_[i] = integer(*c.gl, names[i]);
         int* value = stores_;
         for_each_pixel_store(c, [&](unsigned name, int) { c.gl->GetIntegerv(name, value++); });
     }
@@ -118,7 +118,7 @@ class saved_outputs {
     static constexpr unsigned names[numbers] = {enums::blend_src_rgb,   enums::blend_dst_rgb,      enums::blend_src_alpha,
                                                 enums::blend_dst_alpha, enums::blend_equation_rgb, enums::blend_equation_alpha};
     struct output {
-        bool blend = false;
+        bool blend = {};
         unsigned char mask[4] = {};
         int blending[numbers] = {};
     };
@@ -166,7 +166,7 @@ class saved_viewports {
   private:
     static constexpr int most = 16;
     struct one {
-        bool scissor_test = false;
+        bool scissor_test = {};
         float viewport[4] = {};
         int scissor[4] = {};
         double range[2] = {};
@@ -187,11 +187,11 @@ class saved_raster {
         for_each_switch(c, [&](unsigned what) {
             if (on != switches_ + most) *on++ = gl.IsEnabled(what) != 0;
         });
-        for (int i = 0; i < numbers; ++i) numbers_[i] = integer(gl, names[i], 0);
+        for (int i = 0; i < numbers; ++i) numbers_[i] = integer(gl, names[i]);
         if (!c.es) gl.GetIntegerv(enums::polygon_mode, polygon_modes_);
         if (c.clip_control != clip_control::none) {
-            clip_[0] = integer(gl, enums::clip_origin, 0);
-            clip_[1] = integer(gl, enums::clip_depth_mode, 0);
+            clip_[0] = integer(gl, enums::clip_origin);
+            clip_[1] = integer(gl, enums::clip_depth_mode);
         }
     }
     void restore(const context& c) const noexcept {
@@ -231,8 +231,7 @@ class paused_feedback {
   public:
     explicit paused_feedback(const context& c) noexcept {
         if (!c.since(40, 30)) return;
-        paused_ =
-            integer(*c.gl, enums::transform_feedback_active, 0) != 0 && integer(*c.gl, enums::transform_feedback_paused, 0) == 0;
+        paused_ = integer(*c.gl, enums::transform_feedback_active) != 0 && integer(*c.gl, enums::transform_feedback_paused) == 0;
         if (paused_) c.gl->PauseTransformFeedback();
     }
     /// After the program that it records is back.

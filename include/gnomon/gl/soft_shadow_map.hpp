@@ -70,11 +70,11 @@ class soft_shadow_map<Texel, Kernel, gl::backend_of<Policy>>
         tiles_.clear();
     }
 
-    void cast(texel_rect r, float s) noexcept { add(false, r, s, 1.0f); }
+    void cast(texel_rect r, float s) noexcept { add(false, {.where = r, .depth = s}); }
     void cast(texel_rect r, float s, float opacity) noexcept
         requires(Texel::effects.translucency)
     {
-        add(false, r, s, opacity);
+        add(false, {.where = r, .depth = s, .opacity = opacity});
     }
     /// Casts what `draw` draws, whose fragment stage calls gnomon_caster of gl::caster_text<Texel>(); it returns what it touched, at
     /// least: `texels` and `depth`.
@@ -97,7 +97,7 @@ class soft_shadow_map<Texel, Kernel, gl::backend_of<Policy>>
     void bound(texel_rect r, float z) noexcept
         requires(Texel::effects.far_bound)
     {
-        if (!tiles_.tiles().empty()) add(true, r, z, 1.0f);
+        if (!tiles_.tiles().empty()) add(true, {.where = r, .depth = z});
     }
     /// The same for what `draw` draws, whose fragment stage calls gnomon_bound.
     template <typename Draw>
@@ -159,6 +159,7 @@ class soft_shadow_map<Texel, Kernel, gl::backend_of<Policy>>
         textures_.forget();
         run_.forget();
         passes_.reset();
+        pending_.clear();
         problem_ = {"gnomon: the map's context was lost"};
     }
 
@@ -174,13 +175,13 @@ class soft_shadow_map<Texel, Kernel, gl::backend_of<Policy>>
     }
     [[nodiscard]] bool works() const noexcept { return passes_ != nullptr && !size().empty(); }
 
-    void add(bool bounds, texel_rect r, float depth, float opacity) noexcept {
-        r = clip(r, size());
-        if (!bounds) mark(r, {saturate(depth), saturate(depth)});
-        if (r.empty() || !works()) return;
+    void add(bool bounds, gl::surface s) noexcept {
+        s.where = clip(s.where, size());
+        if (!bounds) mark(s.where, {saturate(s.depth), saturate(s.depth)});
+        if (s.where.empty() || !works()) return;
         if (bounds != pending_bounds_ || static_cast<int>(pending_.size()) == gl::rectangle_list::capacity) flush();
         pending_bounds_ = bounds;
-        pending_.push_back({.where = r, .depth = depth, .opacity = opacity});
+        pending_.push_back(s);
     }
     void flush() noexcept {
         if (pending_.empty()) return;

@@ -72,7 +72,7 @@ template <texel_format Texel> class texel_reader {
 
 /// Writes texels into the texture that is bound to GL_TEXTURE_2D, whose format is format_of<Texel>. Allocates what it hands over.
 /// \pre a state_guard lives
-template <texel_format Texel> void write_texels(const context& c, image_view<const Texel> from, int x0 = 0, int y0 = 0) {
+template <texel_format Texel> void write_texels(const context& c, image_view<const Texel> from) {
     constexpr int components = format_of<Texel>.channels;
     struct row_texel {
         typename Texel::storage stored[static_cast<std::size_t>(components)];
@@ -85,7 +85,7 @@ template <texel_format Texel> void write_texels(const context& c, image_view<con
         for (int row = y; row < end; ++row)
             for (int x = 0; x < from.width(); ++x, ++to)
                 for (int i = 0; i < Texel::channels; ++i) to->stored[i] = from(x, row).stored[i];
-        c.gl->TexSubImage2D(enums::texture_2d, 0, x0, y0 + y, from.width(), end - y, format_of<Texel>.upload,
+        c.gl->TexSubImage2D(enums::texture_2d, 0, 0, y, from.width(), end - y, format_of<Texel>.upload,
                             format_of<Texel>.upload_type, staging.data());
     }
 }

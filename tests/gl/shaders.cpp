@@ -1,0 +1,31 @@
+#include <gnomon/gl/shaders.hpp>
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+namespace gl = gnomon::gl;
+
+TEST_CASE("texts are in the latest language that a context is sure to know, and begin by naming it") {
+    struct spoken {
+        bool es;
+        int version;
+        const char* begin;
+    };
+    for (const spoken& s : {spoken{false, 33, "#version 330 core\n"},
+                            {false, 44, "#version 330 core\n"},
+                            {false, 45, "#version 450 core\n"},
+                            {false, 46, "#version 450 core\n"},
+                            {true, 30, "#version 300 es\n"},
+                            {true, 31, "#version 300 es\n"},
+                            {true, 32, "#version 320 es\n"}}) {
+        CAPTURE(s.version);
+        gl::context c;
+        c.es = s.es;
+        c.version = s.version;
+        const std::string header(gl::glsl_header(gl::glsl_version_of(c)));
+        CHECK(header.find(s.begin) == 0);
+        CHECK((header.find("#define precise\n") != std::string::npos) == (s.version < (s.es ? 32 : 45))); // a word of later ones
+        CHECK((header.find("precision highp float;\n") != std::string::npos) == s.es);
+    }
+}
