@@ -66,6 +66,14 @@ TEST_CASE_TEMPLATE("an owner deletes what it made, once, however it is moved", O
     CHECK(b.fake.wrong == "");
 }
 
+TEST_CASE("what was made may be changed where it is, and taken from there") {
+    gl::result<std::string> made(std::string("a"));
+    *made += 'b';
+    made->push_back('c');
+    CHECK(std::as_const(made)->size() == 3);
+    CHECK(*std::move(made) == "abc");
+}
+
 TEST_CASE("an owner that forgets calls nothing, so that a lost context's names are never deleted in the next") {
     bench b("4.5");
     {

@@ -89,6 +89,7 @@ TEST_CASE("rectangles are drawn in their order, all of them, as many at once as 
     bench b;
     gl::rectangle_list list = *gl::rectangle_list::make(b.context);
     constexpr int most = gl::rectangle_list::capacity;
+    CHECK(b.memory().size() == sizeof(gl::surface) * most); // had from the start, or there would be no list
     for (const int count : {0, 1, 2, most - 1, most, most + 1, 2 * most}) {
         CAPTURE(count);
         b.disturb();
