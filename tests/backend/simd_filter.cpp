@@ -300,4 +300,5 @@ TEST_CASE("a sum divided by way of a product is the quotient rounded to nearest,
     CHECK(wrong_of.template operator()<9, 65535>() == 0);
     CHECK(wrong_of.template operator()<219 * 219, 65535>() == 0);
     CHECK_FALSE(gnomon::on_any::division<221 * 221, 65535>::exact);
+    static_assert(gnomon::on_any::division<9, 255>::largest == 9 * 255 + 4); // the largest sum, and what rounds it
 }
