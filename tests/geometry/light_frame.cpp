@@ -171,7 +171,7 @@ TEST_CASE("a sheared frame sees every point where the frame does, at the sheared
     }
     const light_frame light = lamp.frame(map_size, 4);
     CHECK(light.sheared({}).matrix() == light.matrix());
-    CHECK(light.sheared({0.25f + 0x1p-25f, 0.25f}).matrix() == light.matrix()); // no depths, however nearly
+    CHECK(light.sheared({0.25f + 0x1p-25f, 0.25f}).matrix() == light.matrix());     // no depths, however nearly
     CHECK(std::abs(light.sheared({0.0f, 0.5f}).near_w() - light.near_w()) < 1e-12); // its own near plane stays
     CHECK_FALSE(light.sheared({-1.0f, 0.5f}).valid());                              // begins behind the lamp
     CHECK_FALSE(light_frame().sheared({0.25f, 0.5f}).valid());
