@@ -55,10 +55,9 @@ class directional_light {
     [[nodiscard]] light_frame frame(extent size, int margin = 0) const noexcept {
         const double width = size.width, height = size.height, margins = 2.0 * greater(margin, 0);
         if (!(width - margins >= 2.0) || !(height - margins >= 2.0)) return {};
-        const double least = greater(x_.length() / (width - margins - 1.0), y_.length() / (height - margins - 1.0));
-        if (!(least > 0.0)) return {};
-        const double texel = stable(least);
+        const double texel = stable(greater(x_.length() / (width - margins - 1.0), y_.length() / (height - margins - 1.0)));
         const double cell = stable(greater(z_.length() / (depth_cells - 1.0), texel / depth_cells));
+        if (!(texel > 0.0 && cell > 0.0)) return {};
         return {detail::from_rows(on_grid(axes_.right, x_, texel, width), on_grid(axes_.upward, y_, texel, height),
                                   on_grid(axes_.forward, z_, cell, depth_cells) / depth_cells, {0.0, 0.0, 0.0, 1.0}),
                 size, 1.0, 1.0};
@@ -82,8 +81,8 @@ class directional_light {
         r.include(glm::dot((box.lower + box.upper) * 0.5, axis), glm::dot((box.upper - box.lower) * 0.5, glm::abs(axis)));
     }
 
-    /// `size` rounded up to a power of 2^(1/8). The millionth keeps round numbers off the steps, where rounding would toggle them.
-    /// \pre size > 0
+    /// `size` rounded up to a power of 2^(1/8). The millionth keeps round numbers off the steps, where rounding would toggle them. 0
+    /// stays 0, and below there is none: NaN.
     [[nodiscard]] static double stable(double size) noexcept {
         return std::exp2(std::ceil(std::log2(size * 1.000001) * 8.0) / 8.0);
     }

@@ -20,7 +20,8 @@ template <auto Get, auto GetLog> [[nodiscard]] std::string log_of(const function
     std::string text(static_cast<std::size_t>(length), '\0');
     (gl.*GetLog)(name, length, nullptr, text.data());
     text = text.c_str();
-    return text.substr(0, text.find_last_not_of("\n ") + 1);
+    while (text.ends_with('\n') || text.ends_with(' ')) text.pop_back();
+    return text;
 }
 
 /// Empty if it compiled. The text need not end with a zero.
