@@ -82,9 +82,9 @@ class directional_light {
     }
 
     /// `size` rounded up to a power of 2^(1/8). The millionth keeps round numbers off the steps, where rounding would toggle them. 0
-    /// stays 0, and below there is none: NaN.
+    /// where there is none.
     [[nodiscard]] static double stable(double size) noexcept {
-        return std::exp2(std::ceil(std::log2(size * 1.000001) * 8.0) / 8.0);
+        return size > 0.0 ? std::exp2(std::ceil(std::log2(size * 1.000001) * 8.0) / 8.0) : 0.0;
     }
 
     /// Cells along an axis, shifted by a whole number so that `r` is in the middle of 0...cells, to half a cell.
