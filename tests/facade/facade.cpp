@@ -154,7 +154,7 @@ TEST_CASE_TEMPLATE("sample, receive and receive_row give the bits of the one-poi
     suite::many_are_as_one<Texel>(run);
 }
 
-TEST_CASE_TEMPLATE("what an executor hands out as jobs gives the bits of the forms without", Texel, gnomon::rg8, gnomon::rgba32f) {
+TEST_CASE_TEMPLATE("what an executor filters as jobs is what is filtered at once", Texel, gnomon::rg8, gnomon::rgba32f) {
     suite::jobs_are_as_one<Texel>(run);
 }
 

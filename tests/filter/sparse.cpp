@@ -97,17 +97,16 @@ TEST_CASE("what has to be written is what lies within the radius of the casters'
 
 TEST_CASE("a map of which so much has to be written that the whole is cheaper is filtered whole, from the stated share on") {
     constexpr int side = 200, rows = gnomon::dense_from_percent;
-    const auto but_for =
-        [](extent size, int texels) { // marks in so many of a hundred rows or columns, which a filter without radius has to write
-            tile_grid tiles(size, 1);
-            const bool wide = size.width > size.height;
-            tiles.mark(wide ? texel_rect{0, 0, side, rows - 1} : texel_rect{0, 0, rows - 1, side});
-            tiles.mark(wide ? texel_rect{0, 0, side - texels, rows} : texel_rect{0, 0, rows, side - texels});
-            return tiles;
-        };
-    for (const extent size : {extent{side, 100}, extent{100, side}}) {
-        CHECK(gnomon::regions_to_filter<box<0>>(but_for(size, 0)).all());
-        CHECK_FALSE(gnomon::regions_to_filter<box<0>>(but_for(size, 1)).all());
+    // So many rows of a hundred, or columns, that have to be written, but for some texels of the last.
+    const auto all_but = [](int texels, bool turned) {
+        tile_grid tiles(turned ? extent{100, side} : extent{side, 100}, 1);
+        for (const texel_rect r : {texel_rect{0, 0, side, rows - 1}, {0, 0, side - texels, rows}})
+            tiles.mark(turned ? texel_rect{r.y0, r.x0, r.y1, r.x1} : r);
+        return tiles;
+    };
+    for (const bool turned : {false, true}) {
+        CHECK(gnomon::regions_to_filter<box<0>>(all_but(0, turned)).all());
+        CHECK_FALSE(gnomon::regions_to_filter<box<0>>(all_but(1, turned)).all());
     }
     tile_grid cut({1, 99}, 2); // 89 of 99 texels, in tiles that could hold 180
     cut.mark({0, 0, 1, 88});

@@ -128,7 +128,7 @@ TEST_CASE("a failed allocation is reported, leaks nothing, and an error left by 
     b.fake.errors = {gl::enums::invalid_value};
     CHECK(gl::make_framebuffer(b.context, {1u}));
 
-    b.fake.allocations_until_failure = 0;
+    b.fake.failing = {{"TexImage2D", 0}, {"BufferData", 0}};
     CHECK(gl::make_texture(b.context, gl::rg16f_format, {8, 9}).error().sentence ==
           "gnomon: a texture of 8 x 9 RG16F: GL_OUT_OF_MEMORY");
     CHECK(gl::make_buffer(b.context, 77, nullptr, gl::enums::static_draw).error().sentence ==

@@ -55,7 +55,6 @@ class fake_gl {
     std::map<std::string, std::set<unsigned>> objects = {}; ///< "texture", names alive
     std::vector<unsigned> errors = {};                      ///< answers of GetError to come
     bool lost = false;                                      ///< every call answers with nothing, GetError with CONTEXT_LOST
-    int allocations_until_failure = -1;
     std::map<std::string, int> failing = {}; ///< "GenBuffers", 2: after two it does nothing, and leaves GL_OUT_OF_MEMORY
     unsigned framebuffer_status = gnomon::gl::enums::framebuffer_complete;
     std::string shader_log = {}; ///< a shader that is compiled while this is set is rejected
@@ -141,10 +140,6 @@ class fake_gl {
     void bind(const std::string& kind, unsigned binding, unsigned index, unsigned name) {
         if (name != 0 && objects[kind].count(name) == 0) wrong += "binds a " + kind + " that is not alive; ";
         put(binding, index, name);
-    }
-    void allocate() {
-        if (allocations_until_failure == 0) errors.push_back(gnomon::gl::enums::out_of_memory);
-        if (allocations_until_failure > 0) --allocations_until_failure;
     }
     [[nodiscard]] static unsigned number_of_values(unsigned name) {
         using namespace gnomon::gl;
@@ -302,36 +297,18 @@ inline void fake_gl::things() {
     on<&f::BindVertexArray>("BindVertexArray",
                             [](fake_gl& gl, unsigned name) { gl.bind("vertex array", enums::vertex_array_binding, 0, name); });
     on<&f::CheckFramebufferStatus>("CheckFramebufferStatus", [](fake_gl& gl, unsigned) { return gl.framebuffer_status; });
-    on<&f::TexImage2D>("TexImage2D", [](fake_gl& gl, auto...) { gl.allocate(); });
-    on<&f::BufferData>("BufferData", [](fake_gl& gl, auto...) { gl.allocate(); });
     on<&f::ReadBuffer>("ReadBuffer", [](fake_gl& gl, unsigned from) { gl.read_buffer = from; });
     on<&f::PixelStorei>("PixelStorei", [](fake_gl& gl, unsigned name, int value) { gl.put(name, 0, value); });
-    ignore<&f::TexSubImage2D, &f::TexParameteri, &f::SamplerParameteri, &f::FramebufferTexture2D, &f::DrawBuffers,
+    ignore<&f::TexImage2D, &f::TexSubImage2D, &f::TexParameteri, &f::SamplerParameteri, &f::FramebufferTexture2D, &f::DrawBuffers,
            &f::BlitFramebuffer, &f::InvalidateFramebuffer, &f::ClearBufferfv, &f::ClearBufferiv, &f::ClearBufferuiv,
-           &f::ClearBufferfi, &f::ReadPixels, &f::BufferSubData, &f::EnableVertexAttribArray, &f::DisableVertexAttribArray,
-           &f::VertexAttribPointer, &f::VertexAttribIPointer, &f::VertexAttribDivisor, &f::DrawArrays, &f::DrawArraysInstanced,
-           &f::DrawElements, &f::DrawElementsInstanced>({"TexSubImage2D",
-                                                         "TexParameteri",
-                                                         "SamplerParameteri",
-                                                         "FramebufferTexture2D",
-                                                         "DrawBuffers",
-                                                         "BlitFramebuffer",
-                                                         "InvalidateFramebuffer",
-                                                         "ClearBufferfv",
-                                                         "ClearBufferiv",
-                                                         "ClearBufferuiv",
-                                                         "ClearBufferfi",
-                                                         "ReadPixels",
-                                                         "BufferSubData",
-                                                         "EnableVertexAttribArray",
-                                                         "DisableVertexAttribArray",
-                                                         "VertexAttribPointer",
-                                                         "VertexAttribIPointer",
-                                                         "VertexAttribDivisor",
-                                                         "DrawArrays",
-                                                         "DrawArraysInstanced",
-                                                         "DrawElements",
-                                                         "DrawElementsInstanced"});
+           &f::ClearBufferfi, &f::ReadPixels>({"TexImage2D", "TexSubImage2D", "TexParameteri", "SamplerParameteri",
+                                               "FramebufferTexture2D", "DrawBuffers", "BlitFramebuffer", "InvalidateFramebuffer",
+                                               "ClearBufferfv", "ClearBufferiv", "ClearBufferuiv", "ClearBufferfi", "ReadPixels"});
+    ignore<&f::BufferData, &f::BufferSubData, &f::EnableVertexAttribArray, &f::DisableVertexAttribArray, &f::VertexAttribPointer,
+           &f::VertexAttribIPointer, &f::VertexAttribDivisor, &f::DrawArrays, &f::DrawArraysInstanced, &f::DrawElements,
+           &f::DrawElementsInstanced>({"BufferData", "BufferSubData", "EnableVertexAttribArray", "DisableVertexAttribArray",
+                                       "VertexAttribPointer", "VertexAttribIPointer", "VertexAttribDivisor", "DrawArrays",
+                                       "DrawArraysInstanced", "DrawElements", "DrawElementsInstanced"});
 }
 
 inline void fake_gl::programs() {
