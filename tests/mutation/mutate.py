@@ -1,9 +1,9 @@
 """Breaks include/gnomon one small piece at a time; each time some test must turn red.
 
 A mutant is a copy of one header with one change. The tests whose includes reach that header are compiled against it and run, one
-source a program, the likeliest first, until one fails: most mutants need one. What survives them all must also survive the files
-that must not compile, and the header's own tests under sanitizers. Then it has to stand in survivors.txt with a reason; of what stands
-there only the header's own folder is asked, which is soon told.
+source a program, the likeliest first, until one fails: most mutants need one. A test of many sets of lanes is asked about one of them
+before. What survives them all must also survive the files that must not compile, and the header's own tests under sanitizers. Then it
+has to stand in survivors.txt with a reason; of what stands there only the header's own folder is asked, which is soon told.
 
 Measured with clang++ 14 and a precompiled header, one job on an idle core: 0.7 to 2 s a mutant that is found, a minute and more
 one that survives, for it asks everything.
@@ -34,6 +34,10 @@ FAR = 3.0 # seconds of processor time that a test of another folder may take to 
 ELSEWHERE = {"gnomon/simd/neon.hpp": "it is for another processor: ./tests/run --matrix tests-aarch64",
              "gnomon/simd/wasm.hpp": "it is for another processor: ./tests/run --matrix tests-wasm",
              "gnomon/gl/enums.hpp": "tests/architecture/gl_enums.py holds each number against Khronos' header"}
+# The lanes that are soonest compiled, for the mutants of a header. Tests that include support/one_isa.hpp leave out all others.
+ONE_ISA = {"gnomon/simd/sse2.hpp": "sse2", "gnomon/simd/avx2.hpp": "avx2", "gnomon/simd/avx512.hpp": "avx512",
+           "gnomon/simd/emulated.hpp": "emulated<32>"}
+ANY_ISA = "emulated<48>"
 FOUND_BY_TEST, FOUND_BY_COMPILER, FOUND_BY_CLOCK, SURVIVED = "test", "compiler", "clock", "survived"
 
 
@@ -49,12 +53,17 @@ def folder_of(header):
 
 
 class Test:
-    """One source of tests/: which headers it reaches, how long it takes, how often it was asked and how often it found a mutant."""
+    """One source of tests/, perhaps for one set of lanes: which headers it reaches, how long it takes, how often it was asked and how
+    often it found a mutant."""
 
-    def __init__(self, tree, path):
-        self.path, self.name = path, path.relative_to(tree.tests).as_posix()
+    def __init__(self, tree, path, isa=None):
+        self.path, self.name, self.isa = path, path.relative_to(tree.tests).as_posix(), isa
+        self.options = (f"-DGNOMON_TEST_ONE_ISA=gnomon::{isa}",) if isa else ()
         self.names = tree.own_headers(path)
-        self.reaches, self.key = tree.closure(path)
+        reached = tree.closure(path)
+        self.reaches = {p.relative_to(tree.include).as_posix() for p in reached if p.is_relative_to(tree.include)}
+        self.key = digest(path.read_text(), *self.options, *(p.read_text() for p in sorted(reached)))
+        self.has_many_isas = tree.tests / "support" / "one_isa.hpp" in reached
         self.seconds, self.level, self.code = None, "-O0", None
         self.asked, self.found, self.lock = collections.Counter(), collections.Counter(), threading.Lock()
 
@@ -81,17 +90,18 @@ class Tree:
         self.headers = sorted(p.relative_to(self.include).as_posix() for p in self.include.rglob("*.hpp"))
         self.text = {header: (self.include / header).read_text() for header in self.headers}
         self.sources = [Test(self, p) for p in sorted(self.tests.glob("*/*.cpp")) if p.parent.name not in ("compile_fail", "coverage", "fuzz", "golden", "odr")]
+        self.sources += [Test(self, t.path, isa) for t in self.sources if t.has_many_isas for isa in [ANY_ISA, *ONE_ISA.values()]]
         self.refusals = [Test(self, p) for p in sorted((self.tests / "compile_fail").glob("*.cpp"))]
         self.flavours, self.lock = {}, threading.Lock()
 
     def concerned(self, header):
-        return {t for t in self.sources if header in t.reaches}
+        return {t for t in self.sources if header in t.reaches and t.isa in (None, ONE_ISA.get(header, ANY_ISA))}
 
     def own_headers(self, path):
         return {name for quote, name in INCLUDE.findall(path.read_text()) if name in self.headers}
 
     def closure(self, path):
-        """The headers of the project that a file brings along, by way of others and of tests/support; and a digest of all their text."""
+        """The headers of the project that a file brings along, by way of others, and those of tests/support."""
         seen, todo = set(), [path]
         while todo:
             here = todo.pop()
@@ -100,8 +110,7 @@ class Tree:
                 if there not in seen and there.exists():
                     seen.add(there)
                     todo.append(there)
-        return ({p.relative_to(self.include).as_posix() for p in seen if p.is_relative_to(self.include)},
-                digest(path.read_text(), *(p.read_text() for p in sorted(seen))))
+        return seen
 
     def flavour(self, *options):
         """Compiler options that bring a precompiled header and doctest's main, made for these options once."""
@@ -139,7 +148,7 @@ def code_of(work):
 def ask(tree, test, overlay, work, options=()):
     """(answer, what said so) of one test for the headers in `overlay`, which hide those of include/. The code of no mutant need not run."""
     program, code = work / "program", work / "code.o"
-    compiler, linker = tree.flavour(test.level, *options)
+    compiler, linker = tree.flavour(test.level, *test.options, *options)
     built = limited(120, [*compiler, f"-fmacro-prefix-map={overlay}={tree.include}", f"-I{overlay}", f"-I{tree.include}", "-c", test.path, "-o", code])
     if built.returncode == 0:
         if test.code == code_of(work) and not options:
@@ -185,7 +194,7 @@ def prove(tree, test):
 
 def timed(tree, test):
     """Seconds of processor time to compile and run a test that must pass, and which code it is."""
-    tree.flavour(test.level)
+    tree.flavour(test.level, *test.options)
     with tempfile.TemporaryDirectory(dir=tree.build) as folder:
         began = processor_time()
         answer, said = ask(tree, test, tree.include, pathlib.Path(folder))
@@ -202,7 +211,7 @@ def judge(tree, header, mutant, near):
         (overlay / header).parent.mkdir(parents=True)
         (overlay / header).write_text(mutant.text)
         concerned = {t for t in tree.concerned(header) if t.is_near(header) or not near}
-        own = [t for t in concerned if t.is_of(header)]
+        own = [t for t in concerned if t.is_of(header) and not t.isa]
         while concerned:
             test = max(concerned, key=lambda t: t.promise(header))
             concerned.remove(test)

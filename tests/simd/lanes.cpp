@@ -3,6 +3,7 @@
 
 #include "../support/dice.hpp"
 #include "../support/formats.hpp"
+#include "../support/one_isa.hpp"
 
 #include <doctest/doctest.h>
 
@@ -78,15 +79,17 @@ static_assert(simd_isa<gnomon::wasm128>);
 /// Calls f(checks) for each target that this processor has.
 template <typename F> void for_each_target(F&& f) {
 #if GNOMON_X86
-    f(plain::all<gnomon::sse2>);
-    if (gnomon::best_lanes() >= cpu_level::avx2) f(with_avx2::all<gnomon::avx2>);
-    if (gnomon::best_lanes() >= cpu_level::avx512) f(with_avx512::all<gnomon::avx512>);
+    if constexpr (test::is_asked<gnomon::sse2>) f(plain::all<gnomon::sse2>);
+    if constexpr (test::is_asked<gnomon::avx2>)
+        if (gnomon::best_lanes() >= cpu_level::avx2) f(with_avx2::all<gnomon::avx2>);
+    if constexpr (test::is_asked<gnomon::avx512>)
+        if (gnomon::best_lanes() >= cpu_level::avx512) f(with_avx512::all<gnomon::avx512>);
 #elif GNOMON_NEON
     f(plain::all<gnomon::neon>);
 #elif GNOMON_WASM
     f(plain::all<gnomon::wasm128>);
 #endif
-    f(plain::all<gnomon::emulated<32>>); // the checks pass what is right
+    if constexpr (test::is_asked<gnomon::emulated<32>>) f(plain::all<gnomon::emulated<32>>); // the checks pass what is right
 }
 } // namespace
 

@@ -2,23 +2,29 @@
 #pragma once
 
 #include "images.hpp"
+#include "one_isa.hpp"
 
 #include <gnomon/backend/reconstruct.hpp>
 
 namespace test {
 
+/// Calls f.template operator()<Isa>(), if that one is asked.
+template <typename Isa, typename F> void for_isa(F&& f) {
+    if constexpr (is_asked<Isa>) f.template operator()<Isa>();
+}
+
 /// Calls f.template operator()<Isa>() for what the processor has, by name and as the best of them, and for lanes that are arrays.
 template <typename F> void for_each_isa(F&& f) {
-    f.template operator()<gnomon::best_isa>();
-    f.template operator()<gnomon::emulated<48>>();
+    for_isa<gnomon::best_isa>(f);
+    for_isa<gnomon::emulated<48>>(f);
 #if GNOMON_X86
-    f.template operator()<gnomon::sse2>();
-    if (gnomon::best_lanes() >= gnomon::cpu_level::avx2) f.template operator()<gnomon::avx2>();
-    if (gnomon::best_lanes() >= gnomon::cpu_level::avx512) f.template operator()<gnomon::avx512>();
+    for_isa<gnomon::sse2>(f);
+    if (gnomon::best_lanes() >= gnomon::cpu_level::avx2) for_isa<gnomon::avx2>(f);
+    if (gnomon::best_lanes() >= gnomon::cpu_level::avx512) for_isa<gnomon::avx512>(f);
 #elif GNOMON_NEON
-    f.template operator()<gnomon::neon>();
+    for_isa<gnomon::neon>(f);
 #elif GNOMON_WASM
-    f.template operator()<gnomon::wasm128>();
+    for_isa<gnomon::wasm128>(f);
 #endif
 }
 
