@@ -94,12 +94,13 @@ TEST_CASE_TEMPLATE("lanes filter as the oracle does, for every shape of kernel a
         if (!roll.one_in(3)) map(x, y) = test::any_caster<Texel>(roll);
     });
     for_each_isa([&]<typename Isa>() {
-        test::for_each_kernel(test::kernels<box<0>, box<32>, gaussian<17>, gnomon::fast<gaussian<6>>>{}, [&]<typename Kernel>() {
-            CAPTURE(Kernel::radius);
-            for (const texel_rect part : {whole(map.size()), texel_rect{7, 3, 8, 4}, texel_rect{2040, 9, 2060, 23},
-                                          texel_rect{0, 0, 33, 1}, texel_rect{500, 2, 590, 21}, texel_rect{5, 5, 5, 9}})
-                CHECK(differing<Isa, Kernel>(image_view<const Texel>(map.view()), part) == 0);
-        });
+        test::for_each_kernel(
+            test::kernels<box<0>, box<32>, gaussian<17>, gnomon::fast<gaussian<6>>, test::spread>{}, [&]<typename Kernel>() {
+                CAPTURE(Kernel::radius);
+                for (const texel_rect part : {whole(map.size()), texel_rect{7, 3, 8, 4}, texel_rect{2040, 9, 2060, 23},
+                                              texel_rect{0, 0, 33, 1}, texel_rect{500, 2, 590, 21}, texel_rect{5, 5, 5, 9}})
+                    CHECK(differing<Isa, Kernel>(image_view<const Texel>(map.view()), part) == 0);
+            });
     });
 }
 
@@ -276,7 +277,8 @@ TEST_CASE("boxes of whole codes go by running sums, as far as these fit 32 bits 
     using gnomon::on_any::runs_sums;
     CHECK((runs_sums<box<1>, rg8> && runs_sums<box<256>, gnomon::rgba8> && runs_sums<gnomon::fast<box<7>>, gnomon::rgb16>));
     CHECK((runs_sums<box<109>, gnomon::rg16> && !runs_sums<box<128>, gnomon::rg16>));
-    CHECK_FALSE((runs_sums<box<0>, rg8> || runs_sums<tent<1>, rg8> || runs_sums<box<1>, gnomon::rg16f>));
+    CHECK_FALSE(
+        (runs_sums<box<0>, rg8> || runs_sums<tent<1>, rg8> || runs_sums<test::spread, rg8> || runs_sums<box<1>, gnomon::rg16f>));
 }
 
 TEST_CASE("a sum divided by way of a product is the quotient rounded to nearest, halves upwards, on both sides of every step") {

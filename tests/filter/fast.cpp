@@ -35,6 +35,7 @@ template <typename Texel> long double worst_error(const image<Texel>& from, cons
 } // namespace
 
 static_assert(kernel<fast<gaussian<4>>> && kernel_is_sound<fast<gaussian<4>>>());
+static_assert(detail::is_box<box<2>> && !detail::is_box<test::spread> && !detail::is_box<tent<1>>);
 static_assert(fast<tent<3>>::weights == tent<3>::weights && fast<tent<3>>::total == 16);
 
 TEST_CASE_TEMPLATE("fast, bytes are filtered by weights of eight bits, and by the kernel itself where that is as quick or too wide",
@@ -46,6 +47,7 @@ TEST_CASE_TEMPLATE("fast, bytes are filtered by weights of eight bits, and by th
     CHECK(differing(test::dense<gaussian<3>>(from), by_eight_bits) > 0); // there is something to tell
     CHECK(differing(test::dense<fast<box<3>>>(from), test::dense<box<3>>(from)) == 0);
     CHECK(differing(test::dense<fast<binomial<4>>>(from), test::dense<binomial<4>>(from)) == 0);
+    CHECK(differing(test::dense<fast<gaussian<32>>>(from), test::dense<eight_bit<gaussian<32>>>(from)) == 0);
     CHECK(differing(test::dense<fast<gaussian<33>>>(from), test::dense<gaussian<33>>(from)) == 0);
     CHECK(differing(test::dense<fast<gaussian<0>>>(from), from) == 0);
 }
@@ -72,7 +74,10 @@ TEST_CASE(
     CHECK(differing(test::dense<fast<gaussian<3>>>(from), test::dense<detail::in_units<gaussian<3>, 1024>>(from)) == 0);
     CHECK(differing(test::dense<fast<gaussian<3>>>(from), test::dense<gaussian<3>>(from)) > 0);
     CHECK(differing(test::dense<fast<binomial<5>>>(from), test::dense<binomial<5>>(from)) == 0); // 1024 already
+    CHECK(differing(test::dense<fast<gaussian<128>>>(from), test::dense<detail::in_units<gaussian<128>, 1024>>(from)) == 0);
     CHECK(differing(test::dense<fast<gaussian<129>>>(from), test::dense<gaussian<129>>(from)) == 0);
+    using just_wider = detail::in_units<gaussian<3>, 1025>;
+    CHECK(differing(test::dense<fast<just_wider>>(from), test::dense<detail::in_units<just_wider, 1024>>(from)) == 0);
     const auto bytes = test::noise<tm8>(roll, {41, 37}, 3);
     CHECK(differing(test::dense<fast<gaussian<3>>>(bytes), test::dense<gaussian<3>>(bytes)) == 0);
     const auto of_user = test::noise<texel<own>>(roll, {41, 37}, 3);

@@ -27,7 +27,7 @@ using test::for_each_kernel;
 using test::for_each_texel;
 using test::kernels;
 
-using some_kernels = kernels<box<0>, box<1>, tent<2>, binomial<3>, binomial<9>, gaussian<5>>;
+using some_kernels = kernels<box<0>, box<1>, tent<2>, binomial<3>, binomial<9>, gaussian<5>, test::spread>;
 
 /// Sizes that are smaller than most kernels, thin, empty and ordinary.
 constexpr extent sizes[] = {{0, 0}, {0, 4}, {5, 0}, {1, 1}, {1, 19}, {23, 1}, {3, 2}, {19, 13}};

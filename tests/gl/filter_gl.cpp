@@ -116,7 +116,8 @@ template <typename Texel, gnomon::kernel... Kernels> void in_every_context() {
 } // namespace
 
 TEST_CASE("GL filters as scalar does: rg8, kernels of every shape, in one word and in two, written out and in loops") {
-    in_every_context<gnomon::rg8, box<0>, box<1>, tent<2>, binomial<3>, gaussian<8>, fast<gaussian<8>>, box<32>, gaussian<40>>();
+    in_every_context<gnomon::rg8, box<0>, box<1>, tent<2>, binomial<3>, gaussian<8>, fast<gaussian<8>>, box<32>, gaussian<40>,
+                     test::spread>();
 }
 TEST_CASE("GL filters as scalar does: rg16, sums of two words, and rounded between the passes by fast kernels") {
     in_every_context<gnomon::rg16, box<2>, binomial<3>, gaussian<8>, fast<gaussian<4>>, fast<tent<1>>, gaussian<33>>();

@@ -1,7 +1,7 @@
 """Breaks include/gnomon one small piece at a time; each time some test must turn red.
 
 A mutant is a copy of one header with one change. The tests whose includes reach that header are compiled against it and run, one
-source a program, the likeliest first, until one fails: most mutants need one. A test of many sets of lanes is asked about one of them
+source a program, the likeliest first, until one fails: most mutants need one, and of that a second. A test of many sets of lanes is asked about one of them
 before. What survives them all must also survive the files that must not compile, and the header's own tests under sanitizers. Then it
 has to stand in survivors.txt with a reason; of what stands there only the header's own folder is asked, which is soon told.
 
@@ -145,20 +145,22 @@ def code_of(work):
     return hashlib.sha256((work / "code.o").read_bytes()).hexdigest()[:16]
 
 
-def ask(tree, test, overlay, work, options=()):
-    """(answer, what said so) of one test for the headers in `overlay`, which hide those of include/. The code of no mutant need not run."""
+def ask(tree, test, overlay, work, options=(), peek=False):
+    """(answer, what said so) of one test for the headers in `overlay`, which hide those of include/. The code of no mutant need not run.
+
+    A peek compiles as quickly as can be and runs for a second: that finds most mutants, and says nothing about the rest."""
     program, code = work / "program", work / "code.o"
-    compiler, linker = tree.flavour(test.level, *test.options, *options)
+    compiler, linker = tree.flavour("-O0" if peek else test.level, *test.options, *options)
     built = limited(120, [*compiler, f"-fmacro-prefix-map={overlay}={tree.include}", f"-I{overlay}", f"-I{tree.include}", "-c", test.path, "-o", code])
     if built.returncode == 0:
-        if test.code == code_of(work) and not options:
+        if test.code == code_of(work) and not options and not peek:
             return SURVIVED, ""
         built = limited(120, [*linker, code, "-o", program])
     if re.search(r":\d+:\d+: (fatal )?error: |: error: undefined|CPU time limit", built.stderr):
         return FOUND_BY_COMPILER, test.name
     if built.returncode != 0: # not the mutant's fault: a full disk, no memory
         raise RuntimeError(f"{test.name} was not compiled: {built.stderr[-2000:]}")
-    allowed = 2 + 2 * (test.seconds or 60) * (5 if options else 1)
+    allowed = 0 if peek else 2 + 2 * (test.seconds or 60) * (5 if options else 1)
     ran = limited(allowed, [program, "-aa=1", "-nc"], "unlimited" if options else "4000000",
                   env={**os.environ, "ASAN_OPTIONS": "detect_leaks=0:hard_rss_limit_mb=4000"})
     if ran.returncode == 0 and re.search(r"test cases: +[1-9]", ran.stdout):
@@ -166,7 +168,7 @@ def ask(tree, test, overlay, work, options=()):
     if ran.returncode == -signal.SIGKILL:
         raise RuntimeError(f"{test.name} was killed from outside")
     if ran.returncode == -signal.SIGXCPU:
-        return FOUND_BY_CLOCK, test.name
+        return (SURVIVED, "") if peek else FOUND_BY_CLOCK, test.name
     case = re.search(r"^TEST CASE: +(.*)$", ran.stdout, re.MULTILINE)
     return FOUND_BY_TEST, f"{test.name}: {case[1] if case else 'died'}" + (" (sanitizers)" if options else "")
 
@@ -218,7 +220,9 @@ def judge(tree, header, mutant, near):
             prove(tree, test)
             if test.seconds > FAR and not test.is_near(header):
                 continue
-            answer = ask(tree, test, overlay, work)
+            answer = ask(tree, test, overlay, work, peek=True) if test.level != "-O0" else (SURVIVED, "")
+            if answer[0] == SURVIVED:
+                answer = ask(tree, test, overlay, work)
             test.asked[header] += 1
             if answer[0] != SURVIVED:
                 test.found[header] += 1

@@ -3,6 +3,7 @@
 
 #include <gnomon/filter/kernel.hpp>
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,13 @@ template <gnomon::kernel K> taps taps_of() {
 }
 
 template <gnomon::kernel... Kernels> struct kernels {};
+
+/// A kernel of a user's: rim and sum of a box, and none.
+struct spread {
+    static constexpr int radius = 2;
+    static constexpr int total = 5;
+    static constexpr std::array weights{1, 0, 3, 0, 1};
+};
 
 /// Calls f.template operator()<Kernel>() for each.
 template <typename F, gnomon::kernel... Kernels> void for_each_kernel(kernels<Kernels...>, F&& f) {

@@ -40,8 +40,13 @@ namespace detail {
 
 template <kernel Kernel> inline constexpr bool is_narrow = requires { typename Kernel::within; };
 template <kernel Kernel> inline constexpr bool is_fast = requires { typename Kernel::exact; };
-/// Every tap the same.
-template <kernel Kernel> inline constexpr bool is_box = Kernel::total == 2 * Kernel::radius + 1 && Kernel::weights[0] == 1;
+/// Every tap the same, and one: not what has their sum alone, as (1, 0, 3, 0, 1).
+template <kernel Kernel>
+inline constexpr bool is_box = [] {
+    for (const int w : Kernel::weights)
+        if (w != 1) return false;
+    return true;
+}();
 
 enum class arithmetic {
     exact,  ///< sums without error, one rounding
