@@ -168,7 +168,7 @@ def ask(tree, test, overlay, work, options=(), peek=False):
     if ran.returncode == -signal.SIGKILL:
         raise RuntimeError(f"{test.name} was killed from outside")
     if ran.returncode == -signal.SIGXCPU:
-        return (SURVIVED, "") if peek else FOUND_BY_CLOCK, test.name
+        return (SURVIVED, "") if peek else (FOUND_BY_CLOCK, test.name)
     case = re.search(r"^TEST CASE: +(.*)$", ran.stdout, re.MULTILINE)
     return FOUND_BY_TEST, f"{test.name}: {case[1] if case else 'died'}" + (" (sanitizers)" if options else "")
 
