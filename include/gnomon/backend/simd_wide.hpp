@@ -42,11 +42,20 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
     static constexpr int taps = 2 * Kernel::radius + 1;
     [[nodiscard]] static constexpr int place(int i) noexcept { return i; }
 
+    /// From the centre outwards.
     static constexpr auto weights = [] {
-        std::array<Number, static_cast<std::size_t>(taps + 2 * rows_at_once)> w{};
-        for (int t = 0; t < taps; ++t) w[static_cast<std::size_t>(t + rows_at_once)] = by::template weight<Number>(t);
+        std::array<Number, static_cast<std::size_t>(Kernel::radius + 1)> w{};
+        for (int i = 0; i <= Kernel::radius; ++i) w[static_cast<std::size_t>(i)] = by::template weight<Number>(Kernel::radius + i);
         return w;
     }();
+    GNOMON_LANES numbers weight(int distance) noexcept { return Isa::repeat(weights[static_cast<std::size_t>(distance)]); }
+    /// Two taps more of one weight. (See detail::sums.) Whole codes are summed first, for that rounds nothing and is quicker.
+    GNOMON_LANES numbers add(numbers sum, numbers w, numbers a, numbers b) noexcept {
+        if constexpr (by::in_floats || channel_type::whole_codes)
+            return Isa::add_product(sum, w, Isa::add(a, b));
+        else
+            return Isa::add_product(Isa::add_product(sum, w, a), w, b);
+    }
     GNOMON_LANES numbers codes(const storage* from) noexcept {
         if constexpr (by::in_floats)
             return Isa::template codes_of<channel_type, 1>(from, 0);
@@ -60,25 +69,20 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         for (int at = 0; at < count; at += step) {
             const int i = lesser(at, count - step);
             call_for<Isa>(ahead, i);
-            numbers sum[rows_at_once];
-            GNOMON_UNROLL(4)
-            for (int j = 0; j < rows_at_once; ++j) sum[j] = Isa::repeat(Number{});
+            numbers values[static_cast<std::size_t>(taps + rows_at_once - 1)];
             GNOMON_UNROLL(16)
-            for (int t = 0; t < taps + rows_at_once - 1; ++t) {
-                const numbers values = codes(rows[t] + i);
-                const Number* w = weights.data() + rows_at_once + t;
-                GNOMON_UNROLL(4)
-                for (int j = 0; j < rows_at_once; ++j)
-                    if (channel_type::whole_codes || (t >= j && t < taps + j)) // an infinity times no weight is no zero
-                        sum[j] = Isa::add_product(sum[j], values, Isa::repeat(w[-j]));
-            }
+            for (int t = 0; t < taps + rows_at_once - 1; ++t) values[t] = codes(rows[t] + i);
             GNOMON_UNROLL(4)
             for (int j = 0; j < rows_at_once; ++j) {
+                const numbers* const centre = values + j + Kernel::radius;
+                numbers sum = Isa::multiply(*centre, weight(0));
+                GNOMON_UNROLL(16)
+                for (int d = 1; d <= Kernel::radius; ++d) sum = add(sum, weight(d), centre[-d], centre[d]);
                 if constexpr (!channel_type::whole_codes && !by::in_floats) { // detail::to_bits<36>
                     constexpr std::uint64_t dropped = (1 << 17) - 1;
-                    sum[j] = Isa::add_and_mask(sum[j], dropped / 2 + 1, ~dropped);
+                    sum = Isa::add_and_mask(sum, dropped / 2 + 1, ~dropped);
                 }
-                Isa::store(line + j * plane + i, sum[j]);
+                Isa::store(line + j * plane + i, sum);
             }
         }
     }
@@ -92,11 +96,11 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
 
     GNOMON_LANES_VOID void row(const Number* line, int, storage* to) noexcept {
         constexpr auto whole = static_cast<Number>(by::whole);
-        numbers sum = Isa::repeat(Number{});
+        const Number* const centre = line + margin;
+        numbers sum = Isa::multiply(Isa::load(centre), weight(0));
         GNOMON_UNROLL(16)
-        for (int t = 0; t < taps; ++t)
-            sum = Isa::add_product(sum, Isa::load(line + t * Texel::channels),
-                                   Isa::repeat(weights[static_cast<std::size_t>(t + rows_at_once)]));
+        for (int d = 1; d <= Kernel::radius; ++d)
+            sum = add(sum, weight(d), Isa::load(centre - d * Texel::channels), Isa::load(centre + d * Texel::channels));
         if constexpr (!Texel::representation_type::premultiplied) {
             double sums[static_cast<std::size_t>(step)];
             Isa::store(sums, sum);

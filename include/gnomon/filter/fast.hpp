@@ -14,7 +14,7 @@ namespace gnomon::inline GNOMON_BUILD {
 ///     unorm8       weights of eight bits (see eight_bit), and then no error but the one rounding; the kernel as it is if it is a
 ///                  box, if 256 is a multiple of its total, or if it is wider than R = 32
 ///     unorm16      weights of 15 bits, and rounded twice, after the columns and after the row: at most one code off instead of half
-///     half, float  single precision: every product and every sum is rounded, 2R+1 times a pass
+///     half, float  single precision: every product and every sum is rounded, R+2 times a pass
 ///     depth_ratio  in 16 bits weights of ten bits, up to R = 128, and then no error but the two roundings; in 8 bits the kernel as it is
 ///
 /// Weights are within one unit of the kernel's proportions. Everything else that a filter promises still holds, in every bit on
@@ -97,8 +97,8 @@ inline constexpr int filter_roundings = [] {
     using chosen = detail::plan<Texel, Kernel>;
     if (chosen::how == detail::arithmetic::exact) return 1;
     if (chosen::how == detail::arithmetic::stored) return 2;
-    // Each term of a sum of 2R+1 is rounded as a product and in at most 2R sums; then the two passes' weights are divided out.
-    constexpr int roundings = 2 * (2 * Kernel::radius + 1) + 2;
+    // Each tap is rounded with the one across, as a product and in at most R sums; then the two passes' weights are divided out.
+    constexpr int roundings = 2 * (Kernel::radius + 2) + 2;
     return std::same_as<typename Texel::channel_type, float32>
                ? roundings + 1
                : (detail::is_narrow<Kernel> ? 3 : 2); // of 2^-24 each: in halves less than one

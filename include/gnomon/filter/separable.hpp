@@ -49,8 +49,8 @@ template <int Bits> [[nodiscard]] constexpr double to_bits(double v) noexcept {
     return std::bit_cast<double>((std::bit_cast<std::uint64_t>(v) + (dropped + 1) / 2) & ~dropped);
 }
 
-/// How a texel's filter computes, by the weights it uses: one product more in a sum, what is left of a sum between the passes, and
-/// what 1 is at the end.
+/// How a texel's filter computes, by the weights it uses: what a sum begins with, two taps more of one weight, what is left of a sum
+/// between the passes, and what 1 is at the end. Sums go from the centre outwards.
 template <texel_format Texel, kernel Kernel> struct sums {
     using chosen = plan<Texel, Kernel>;
     using weights_of = typename chosen::weights_of;
@@ -70,10 +70,15 @@ template <texel_format Texel, kernel Kernel> struct sums {
         return stored_between ? total : total * total;
     }();
 
-    template <typename Number> [[nodiscard]] static constexpr Number add(Number sum, Number w, Number v) noexcept {
-        // w v is exact, and rounded by `store` in a way that no compiler fuses with the sum
-        if constexpr (in_floats) return static_cast<Number>(static_cast<float>(sum) + float32::store(static_cast<double>(w * v)));
-        return sum + w * v;
+    template <typename Number> [[nodiscard]] static constexpr Number product(Number w, Number v) noexcept {
+        // w v is exact, and rounded by `store` in a way that no compiler fuses with a sum
+        if constexpr (in_floats) return static_cast<Number>(float32::store(static_cast<double>(w * v)));
+        return w * v;
+    }
+    template <typename Number> [[nodiscard]] static constexpr Number add(Number sum, Number w, Number a, Number b) noexcept {
+        if constexpr (!in_floats) return sum + w * a + w * b;
+        const float both = static_cast<float>(a) + static_cast<float>(b);
+        return static_cast<Number>(static_cast<float>(sum) + static_cast<float>(product(w, static_cast<Number>(both))));
     }
     [[nodiscard]] static constexpr element between(element sum) noexcept {
         if constexpr (stored_between)
@@ -94,27 +99,30 @@ void sum_columns(image_view<const Texel> from, int y, int x0, int x1, std::span<
     using by = sums<Texel, Kernel>;
     constexpr int channels = Texel::channels;
     constexpr Texel clear = Texel::clear();
+    struct texels {
+        const Texel* first;
+        int step; // none, where they are all one
+        [[nodiscard]] element code(int x, int c) const noexcept {
+            return first[static_cast<std::ptrdiff_t>(x) * step].template linear<element>(c);
+        }
+    };
+    const texels nothing{&clear, 0};
+    const auto row = [&](int at) { return at < 0 || at >= from.height() ? nothing : texels{from.row(at), 1}; };
     const int inside0 = lesser(greater(x0, 0), x1), inside1 = greater(lesser(x1, from.width()), inside0);
-    const auto add = [&line, x0](element weight, int first, int last, auto texel_at) {
+    const auto add = [&line, x0](int distance, int first, int last, texels above, texels below) {
+        const auto weight = by::template weight<element>(Kernel::radius + distance);
         element* sum = line.data() + static_cast<std::ptrdiff_t>(first - x0) * channels;
         for (int x = first; x < last; ++x)
-            for (int c = 0; c < channels; ++c, ++sum) *sum = by::add(*sum, weight, texel_at(x).template linear<element>(c));
+            for (int c = 0; c < channels; ++c, ++sum)
+                *sum = distance == 0 ? by::product(weight, above.code(x, c))
+                                     : by::add(*sum, weight, above.code(x, c), below.code(x, c));
     };
-    const auto outside = [&clear](int) -> const Texel& { return clear; };
-    const auto count = static_cast<std::size_t>(x1 - x0) * channels;
-    for (std::size_t i = 0; i < count; ++i) line[i] = element{};
-    for (int tap = 0; tap <= 2 * Kernel::radius; ++tap) {
-        const auto weight = by::template weight<element>(tap);
-        const int row = y + tap - Kernel::radius;
-        if (row < 0 || row >= from.height()) {
-            add(weight, x0, x1, outside);
-            continue;
-        }
-        const Texel* texels = from.row(row);
-        add(weight, x0, inside0, outside);
-        add(weight, inside0, inside1, [texels](int x) -> const Texel& { return texels[x]; });
-        add(weight, inside1, x1, outside);
+    for (int distance = 0; distance <= Kernel::radius; ++distance) {
+        add(distance, x0, inside0, nothing, nothing);
+        add(distance, inside0, inside1, row(y - distance), row(y + distance));
+        add(distance, inside1, x1, nothing, nothing);
     }
+    const auto count = static_cast<std::size_t>(x1 - x0) * channels;
     for (std::size_t i = 0; i < count; ++i) line[i] = by::between(line[i]);
 }
 
@@ -125,12 +133,13 @@ void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) no
     using by = sums<Texel, Kernel>;
     using wide = typename by::wide;
     for (int x = 0; x < width; ++x) {
-        wide sum[static_cast<std::size_t>(channels)]{};
+        wide sum[static_cast<std::size_t>(channels)];
         for (int c = 0; c < channels; ++c) {
-            for (int tap = 0; tap <= 2 * Kernel::radius; ++tap) {
-                const auto i = static_cast<std::size_t>(x + tap) * channels + static_cast<std::size_t>(c);
-                sum[c] = by::add(sum[c], by::template weight<wide>(tap), static_cast<wide>(line[i]));
-            }
+            const auto tap = [&](int i) { return static_cast<wide>(line[static_cast<std::size_t>((x + i) * channels + c)]); };
+            sum[c] = by::product(by::template weight<wide>(Kernel::radius), tap(Kernel::radius));
+            for (int i = 1; i <= Kernel::radius; ++i)
+                sum[c] = by::add(sum[c], by::template weight<wide>(Kernel::radius + i), tap(Kernel::radius - i),
+                                 tap(Kernel::radius + i));
             if constexpr (by::in_floats) sum[c] = static_cast<wide>(static_cast<float>(sum[c]) / static_cast<float>(by::whole));
         }
         to[x] = Texel::from_linear(sum, by::in_floats ? wide{1} : by::whole);
