@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace {
 /// A register's worth of bytes, at an odd address.
@@ -70,6 +71,7 @@ using gnomon::simd_isa;
 static_assert(simd_isa<gnomon::emulated<16>> && simd_isa<gnomon::emulated<64>> && !simd_isa<int> && !simd_isa<gnomon::half16>);
 #if GNOMON_X86
 static_assert(simd_isa<gnomon::sse2> && simd_isa<gnomon::avx2> && simd_isa<gnomon::avx512>);
+static_assert(gnomon::straddles<gnomon::avx512> && gnomon::sums_quads<gnomon::avx512>);
 #elif GNOMON_NEON
 static_assert(simd_isa<gnomon::neon>);
 #elif GNOMON_WASM

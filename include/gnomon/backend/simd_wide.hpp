@@ -94,12 +94,26 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         }
     }
 
+    /// The two taps so near a row's centre that registers on either side of it hold them too.
+    template <int Distance> GNOMON_LANES numbers add_near(numbers sum, numbers before, numbers here, numbers behind) noexcept {
+        constexpr int away = Distance * Texel::channels;
+        return add(sum, weight(Distance), Isa::template straddle<step - away>(before, here),
+                   Isa::template straddle<away>(here, behind));
+    }
+
     GNOMON_LANES_VOID void row(const Number* line, int, storage* to) noexcept {
         constexpr auto whole = static_cast<Number>(by::whole);
         const Number* const centre = line + margin;
-        numbers sum = Isa::multiply(Isa::load(centre), weight(0));
+        const numbers here = Isa::load(centre);
+        numbers sum = Isa::multiply(here, weight(0));
+        constexpr int near = straddles<Isa> ? lesser(Kernel::radius, lesser(2, (step - 1) / Texel::channels)) : 0;
+        if constexpr (near > 0) {
+            const numbers before = Isa::load(centre - step), behind = Isa::load(centre + step);
+            sum = add_near<1>(sum, before, here, behind);
+            if constexpr (near > 1) sum = add_near<2>(sum, before, here, behind);
+        }
         GNOMON_UNROLL(16)
-        for (int d = 1; d <= Kernel::radius; ++d)
+        for (int d = near + 1; d <= Kernel::radius; ++d)
             sum = add(sum, weight(d), Isa::load(centre - d * Texel::channels), Isa::load(centre + d * Texel::channels));
         if constexpr (!Texel::representation_type::premultiplied) {
             double sums[static_cast<std::size_t>(step)];

@@ -99,6 +99,12 @@ struct avx512 {
         const ints odd = _mm512_maskz_srli_epi64(eight, _mm512_maskz_mul_epu32(eight, upper_a, upper_b), Shift);
         return _mm512_or_si512(even, _mm512_maskz_slli_epi64(eight, odd, 32));
     }
+    template <int Places> GNOMON_LANES floats straddle(floats a, floats b) noexcept {
+        return _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(all, _mm512_castps_si512(b), _mm512_castps_si512(a), Places));
+    }
+    template <int Places> GNOMON_LANES doubles straddle(doubles a, doubles b) noexcept {
+        return _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(eight, _mm512_castpd_si512(b), _mm512_castpd_si512(a), Places));
+    }
     GNOMON_LANES_VOID void settle(ints& a) noexcept { GNOMON_SETTLE(a); }
 
     GNOMON_LANES ints either(ints a, ints b) noexcept { return _mm512_or_si512(a, b); }

@@ -226,6 +226,11 @@ template <int Bytes> struct emulated {
     [[nodiscard]] static floats repeat(float v) noexcept {
         return of_floats<floats>([v](int) { return v; });
     }
+    /// The lanes from `Places` on, of `a` and then of `b`. \pre 0 < Places < the lanes there are
+    template <int Places> [[nodiscard]] static floats straddle(floats a, floats b) noexcept {
+        return of_floats<floats>(
+            [&](int i) { return i + Places < float_lanes ? a.lane[i + Places] : b.lane[i + Places - float_lanes]; });
+    }
     [[nodiscard]] static floats add(floats a, floats b) noexcept {
         return of_floats<floats>([&](int i) { return a.lane[i] + b.lane[i]; });
     }
@@ -303,6 +308,9 @@ template <int Bytes> struct emulated {
     static void store(double* to, doubles a) noexcept { std::memcpy(to, &a, sizeof a); }
     [[nodiscard]] static doubles repeat(double v) noexcept {
         return each([v](int) { return v; });
+    }
+    template <int Places> [[nodiscard]] static doubles straddle(doubles a, doubles b) noexcept {
+        return each([&](int i) { return i + Places < double_lanes ? a.lane[i + Places] : b.lane[i + Places - double_lanes]; });
     }
     [[nodiscard]] static doubles add(doubles a, doubles b) noexcept {
         return each([&](int i) { return a.lane[i] + b.lane[i]; });

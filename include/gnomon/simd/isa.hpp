@@ -130,6 +130,14 @@ concept sums_quads = simd_isa<Isa> && requires(typename Isa::ints i) {
     { Isa::add_dot8(i, i, i) } -> std::same_as<typename Isa::ints>;
 };
 
+/// Lanes that cut a register out of two. Optional: filters in floats and doubles are quicker by it where a load across two cache lines
+/// takes the time of two.
+template <typename Isa>
+concept straddles = simd_isa<Isa> && requires(typename Isa::floats f, typename Isa::doubles d) {
+    { Isa::template straddle<1>(f, f) } -> std::same_as<typename Isa::floats>;
+    { Isa::template straddle<1>(d, d) } -> std::same_as<typename Isa::doubles>;
+};
+
 /// Which lanes a processor has: of x86 each level has those below it, elsewhere there is one.
 enum class cpu_level { portable, wasm128, neon, sse2, avx2, avx512 };
 
