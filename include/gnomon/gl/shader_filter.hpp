@@ -6,6 +6,8 @@
 #include <gnomon/gl/shader_exact.hpp>
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <type_traits>
 
 namespace gnomon::inline GNOMON_BUILD {
@@ -58,7 +60,8 @@ template <texel_format Texel> [[nodiscard]] std::string each_component(const std
     return text + ")";
 }
 
-/// `gnomon_add(weight, away)` for every tap, in the order of the taps: floats are summed in it.
+/// `gnomon_add(weight, away)` for every tap of whole codes; of floats from the centre outwards, two taps at a time, as the scalar filter
+/// sums them.
 template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string taps_text() {
     using of = filter_in_gl<Texel, Kernel>;
     const auto weight = [](int tap) {
@@ -67,14 +70,15 @@ template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string taps_text
         else
             return literal(of::by::template weight<float>(tap));
     };
-    const std::string first = literal(-Kernel::radius), last = literal(Kernel::radius);
-    std::string text;
+    const int nearest = of::whole_codes ? -Kernel::radius : 1;
+    const std::string first = literal(nearest), last = literal(Kernel::radius);
+    std::string text = of::whole_codes ? "" : "    gnomon_sum = " + weight(Kernel::radius) + " * gnomon_at(0);\n";
     if (of::written_out) {
-        for (int tap = 0; tap <= 2 * Kernel::radius; ++tap)
-            text += "    gnomon_add(" + weight(tap) + ", " + literal(tap - Kernel::radius) + ");\n";
+        for (int away = nearest; away <= Kernel::radius; ++away)
+            text += "    gnomon_add(" + weight(Kernel::radius + away) + ", " + literal(away) + ");\n";
         return text;
     }
-    return "    for (int away = " + first + "; away <= " + last + "; ++away) gnomon_add(" +
+    return text + "    for (int away = " + first + "; away <= " + last + "; ++away) gnomon_add(" +
            (gnomon::detail::is_box<typename of::weights_of> ? weight(0) : "gnomon_weights[abs(away)]") + ", away);\n";
 }
 
@@ -101,10 +105,15 @@ template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_na
            literal(static_cast<int>(of::total));
 }
 
-/// How a texel's channels are read in the first pass: as a linear filter has to see them.
+/// Two taps more of one weight, rounded as a pair, as a product and in the sum.
+inline constexpr std::string_view add_floats_text = R"(    precise @vec both = gnomon_at(-away) + gnomon_at(away);
+    precise @vec product = weight * both;
+    gnomon_sum = gnomon_sum + product;
+)";
+
+/// How whole codes are read in the first pass: as a linear filter has to see them.
 template <texel_format Texel> [[nodiscard]] std::string linear_text() {
-    if (!Texel::channel_type::whole_codes) return "texel";
-    const std::string codes = vec<Texel>("u") + "(texel * " + literal(Texel::channel_type::scale) + " + 0.5)";
+    const std::string codes = vec<Texel>("u") + "(gnomon_at(away) * " + literal(Texel::channel_type::scale) + " + 0.5)";
     if (Texel::representation_type::premultiplied) return codes;
     std::string text = vec<Texel>("u") + "(";
     for (int c = 0; c < components<Texel>; ++c) {
@@ -133,15 +142,18 @@ layout(location = 0) out @stored gnomon_sums;
 @weights
 @sum gnomon_sum = @zero;
 
-void gnomon_add(@number weight, int away) {
+@vec gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
-    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return;
-    @vec texel = @vec(texelFetch(gnomon_texels, at, 0));
+    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return @vec(0);
+    return @vec(texelFetch(gnomon_texels, at, 0));
+}
+
+void gnomon_add(@number weight, int away) {
 )";
     if constexpr (!of::whole_codes)
-        text += "    precise @vec product = weight * texel;\n    gnomon_sum = gnomon_sum + product;\n";
+        text += detail::add_floats_text;
     else if constexpr (of::ratio)
-        text += "    @uvec codes = @uvec(texel * @scale + 0.5);\n    gnomon_sum += weight * @linear;\n";
+        text += "    @uvec codes = @uvec(gnomon_at(away) * @scale + 0.5);\n    gnomon_sum += weight * @linear;\n";
     else
         text += "    gnomon_sum += weight * @linear;\n";
     text += "}\n\nvoid main() {\n@taps    gnomon_sums = @result;\n}\n";
@@ -153,7 +165,7 @@ void gnomon_add(@number weight, int away) {
                                                                 : "gnomon_sum";
     return detail::filled(text, {{"weights", detail::weights_text<Texel, Kernel>()},
                                  {"taps", detail::taps_text<Texel, Kernel>()},
-                                 {"linear", detail::linear_text<Texel>()},
+                                 {"linear", of::whole_codes ? detail::linear_text<Texel>() : ""},
                                  {"result", result},
                                  {"stored", vec<Texel>(of::narrow ? "" : "u")},
                                  {"scale", detail::literal(Texel::channel_type::scale)},
@@ -228,14 +240,18 @@ layout(location = 0) out @vec gnomon_texel;
     text += of::two_words ? "@uvec gnomon_low = @zero, gnomon_high = @zero; // sums of the low and the high 16 bits\n"
                           : "@sum gnomon_sum = @zero;\n";
     text += R"(
-void gnomon_add(@number weight, int away) {
+@sums gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
-    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
-    @fetch
+    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return @sums(0);
+    return @fetch;
+}
+
+void gnomon_add(@number weight, int away) {
 )";
-    text += !of::whole_codes ? "    precise @vec product = weight * sums;\n    gnomon_sum = gnomon_sum + product;\n"
-            : of::two_words  ? "    gnomon_low += weight * (sums & 0xFFFFu);\n    gnomon_high += weight * (sums >> 16);\n"
-                             : "    gnomon_sum += weight * sums;\n";
+    text += !of::whole_codes ? detail::add_floats_text
+            : of::two_words  ? "    @uvec sums = gnomon_at(away);\n    gnomon_low += weight * (sums & 0xFFFFu);\n"
+                               "    gnomon_high += weight * (sums >> 16);\n"
+                             : "    gnomon_sum += weight * gnomon_at(away);\n";
     text += "}\n\nvoid main() {\n";
     text += "@taps";
     if constexpr (!of::whole_codes) {
@@ -252,13 +268,13 @@ void gnomon_add(@number weight, int away) {
         text += "    @uvec codes = @codes;\n    gnomon_texel = @vec(codes) / @scale";
     }
     text += ";\n}\n";
-    const char* const fetch = of::narrow && of::whole_codes
-                                  ? "@uvec sums = @uvec(@vec(texelFetch(gnomon_sums, at, 0)) * @scale + 0.5);"
-                              : of::narrow      ? "@vec sums = @vec(texelFetch(gnomon_sums, at, 0));"
-                              : of::whole_codes ? "@uvec sums = @uvec(texelFetch(gnomon_sums, at, 0));"
-                                                : "@vec sums = uintBitsToFloat(@uvec(texelFetch(gnomon_sums, at, 0)));";
+    const char* const fetch = of::narrow && of::whole_codes ? "@uvec(@vec(texelFetch(gnomon_sums, at, 0)) * @scale + 0.5)"
+                              : of::narrow                  ? "@vec(texelFetch(gnomon_sums, at, 0))"
+                              : of::whole_codes             ? "@uvec(texelFetch(gnomon_sums, at, 0))"
+                                                            : "uintBitsToFloat(@uvec(texelFetch(gnomon_sums, at, 0)))";
     return detail::filled(text, {{"sampler", of::narrow ? "sampler2D" : "usampler2D"},
                                  {"fetch", fetch},
+                                 {"sums", of::whole_codes ? vec<Texel>("u") : vec<Texel>()},
                                  {"weights", detail::weights_text<Texel, Kernel>()},
                                  {"division", detail::division_text<Texel, Kernel>()},
                                  {"taps", detail::taps_text<Texel, Kernel>()},

@@ -4,11 +4,14 @@ layout(location = 0) out uvec2 gnomon_sums;
 
 uvec2 gnomon_sum = uvec2(0);
 
-void gnomon_add(uint weight, int away) {
+vec2 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
-    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return;
-    vec2 texel = vec2(texelFetch(gnomon_texels, at, 0));
-    gnomon_sum += weight * uvec2(texel * 65535.0 + 0.5);
+    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return vec2(0);
+    return vec2(texelFetch(gnomon_texels, at, 0));
+}
+
+void gnomon_add(uint weight, int away) {
+    gnomon_sum += weight * uvec2(gnomon_at(away) * 65535.0 + 0.5);
 }
 
 void main() {

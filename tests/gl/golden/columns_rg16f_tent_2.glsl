@@ -4,18 +4,20 @@ layout(location = 0) out uvec2 gnomon_sums;
 
 precise vec2 gnomon_sum = vec2(0);
 
-void gnomon_add(float weight, int away) {
+vec2 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
-    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return;
-    vec2 texel = vec2(texelFetch(gnomon_texels, at, 0));
-    precise vec2 product = weight * texel;
+    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return vec2(0);
+    return vec2(texelFetch(gnomon_texels, at, 0));
+}
+
+void gnomon_add(float weight, int away) {
+    precise vec2 both = gnomon_at(-away) + gnomon_at(away);
+    precise vec2 product = weight * both;
     gnomon_sum = gnomon_sum + product;
 }
 
 void main() {
-    gnomon_add(0.0625, -2);
-    gnomon_add(0.125, -1);
-    gnomon_add(0.1875, 0);
+    gnomon_sum = 0.1875 * gnomon_at(0);
     gnomon_add(0.125, 1);
     gnomon_add(0.0625, 2);
     gnomon_sums = floatBitsToUint(gnomon_sum);

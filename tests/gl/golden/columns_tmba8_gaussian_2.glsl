@@ -4,11 +4,14 @@ layout(location = 0) out uvec4 gnomon_sums;
 
 uvec4 gnomon_sum = uvec4(0);
 
-void gnomon_add(uint weight, int away) {
+vec4 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
-    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return;
-    vec4 texel = vec4(texelFetch(gnomon_texels, at, 0));
-    uvec4 codes = uvec4(texel * 255.0 + 0.5);
+    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return vec4(0);
+    return vec4(texelFetch(gnomon_texels, at, 0));
+}
+
+void gnomon_add(uint weight, int away) {
+    uvec4 codes = uvec4(gnomon_at(away) * 255.0 + 0.5);
     gnomon_sum += weight * uvec4(codes.x * codes.y, codes.y, codes.z * codes.y, codes.w);
 }
 

@@ -4,11 +4,14 @@ layout(location = 0) out vec2 gnomon_texel;
 
 uvec2 gnomon_sum = uvec2(0);
 
-void gnomon_add(uint weight, int away) {
+uvec2 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
-    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
-    uvec2 sums = uvec2(texelFetch(gnomon_sums, at, 0));
-    gnomon_sum += weight * sums;
+    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return uvec2(0);
+    return uvec2(texelFetch(gnomon_sums, at, 0));
+}
+
+void gnomon_add(uint weight, int away) {
+    gnomon_sum += weight * gnomon_at(away);
 }
 
 void main() {

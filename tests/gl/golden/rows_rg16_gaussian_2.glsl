@@ -16,10 +16,14 @@ uint gnomon_nearest(uvec2 sum) {
 
 uvec2 gnomon_low = uvec2(0), gnomon_high = uvec2(0); // sums of the low and the high 16 bits
 
-void gnomon_add(uint weight, int away) {
+uvec2 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
-    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
-    uvec2 sums = uvec2(texelFetch(gnomon_sums, at, 0));
+    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return uvec2(0);
+    return uvec2(texelFetch(gnomon_sums, at, 0));
+}
+
+void gnomon_add(uint weight, int away) {
+    uvec2 sums = gnomon_at(away);
     gnomon_low += weight * (sums & 0xFFFFu);
     gnomon_high += weight * (sums >> 16);
 }

@@ -23,18 +23,20 @@ layout(location = 0) out vec2 gnomon_texel;
 
 precise vec2 gnomon_sum = vec2(0);
 
-void gnomon_add(float weight, int away) {
+vec2 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
-    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
-    vec2 sums = uintBitsToFloat(uvec2(texelFetch(gnomon_sums, at, 0)));
-    precise vec2 product = weight * sums;
+    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return vec2(0);
+    return uintBitsToFloat(uvec2(texelFetch(gnomon_sums, at, 0)));
+}
+
+void gnomon_add(float weight, int away) {
+    precise vec2 both = gnomon_at(-away) + gnomon_at(away);
+    precise vec2 product = weight * both;
     gnomon_sum = gnomon_sum + product;
 }
 
 void main() {
-    gnomon_add(0.0625, -2);
-    gnomon_add(0.125, -1);
-    gnomon_add(0.1875, 0);
+    gnomon_sum = 0.1875 * gnomon_at(0);
     gnomon_add(0.125, 1);
     gnomon_add(0.0625, 2);
     gnomon_sum = gnomon_sum / 0.31640625;

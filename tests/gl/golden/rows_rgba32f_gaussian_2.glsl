@@ -4,18 +4,20 @@ layout(location = 0) out vec4 gnomon_texel;
 
 precise vec4 gnomon_sum = vec4(0);
 
-void gnomon_add(float weight, int away) {
+vec4 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
-    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
-    vec4 sums = uintBitsToFloat(uvec4(texelFetch(gnomon_sums, at, 0)));
-    precise vec4 product = weight * sums;
+    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return vec4(0);
+    return uintBitsToFloat(uvec4(texelFetch(gnomon_sums, at, 0)));
+}
+
+void gnomon_add(float weight, int away) {
+    precise vec4 both = gnomon_at(-away) + gnomon_at(away);
+    precise vec4 product = weight * both;
     gnomon_sum = gnomon_sum + product;
 }
 
 void main() {
-    gnomon_add(0.054489136, -2);
-    gnomon_add(0.24420166, -1);
-    gnomon_add(0.4026184, 0);
+    gnomon_sum = 0.4026184 * gnomon_at(0);
     gnomon_add(0.24420166, 1);
     gnomon_add(0.054489136, 2);
     gnomon_texel = gnomon_sum;

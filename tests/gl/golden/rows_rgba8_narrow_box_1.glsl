@@ -4,11 +4,14 @@ layout(location = 0) out vec4 gnomon_texel;
 
 uvec4 gnomon_sum = uvec4(0);
 
-void gnomon_add(uint weight, int away) {
+uvec4 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
-    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return;
-    uvec4 sums = uvec4(vec4(texelFetch(gnomon_sums, at, 0)) * 255.0 + 0.5);
-    gnomon_sum += weight * sums;
+    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return uvec4(0);
+    return uvec4(vec4(texelFetch(gnomon_sums, at, 0)) * 255.0 + 0.5);
+}
+
+void gnomon_add(uint weight, int away) {
+    gnomon_sum += weight * gnomon_at(away);
 }
 
 void main() {
