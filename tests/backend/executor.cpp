@@ -9,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -175,7 +176,7 @@ TEST_CASE("what marks with depths hold is filtered by an executor as by the same
     CHECK(test::differences(made, image<rg8>(size, rg8::clear())) > 0);
 }
 
-TEST_CASE("bands are shared out by area: none takes more than its part and a few rows") {
+TEST_CASE("bands are shared out by area, in eights of rows: none takes more than its part and a few rows") {
     dice roll(513);
     for (int round = 0; round < 40; ++round) {
         std::vector<texel_rect> regions;
@@ -190,12 +191,20 @@ TEST_CASE("bands are shared out by area: none takes more than its part and a few
         };
         const gnomon::detail::band_cut cut(walk, 7);
         std::int64_t sum = 0, most = 0;
-        for (int band = 0; band < cut.size(); ++band) {
+        int wrong = 0;
+        for (int band = 0; band < cut.size() + 3; ++band) {
             std::int64_t mine = 0;
-            cut.for_each(band, [&](texel_rect r) { mine += std::int64_t{r.width()} * r.height(); });
+            cut.for_each(band, [&](texel_rect r) {
+                mine += std::int64_t{r.width()} * r.height();
+                const auto is_cut = [r](texel_rect of) {
+                    return of.x0 == r.x0 && of.x1 == r.x1 && (r.y0 - of.y0) % 8 == 0 && (r.y1 == of.y1 || (r.y1 - of.y0) % 8 == 0);
+                };
+                wrong += band >= cut.size() || r.empty() || std::none_of(regions.begin(), regions.end(), is_cut);
+            });
             sum += mine;
             most = gnomon::greater(most, mine);
         }
+        CHECK(wrong == 0);
         CHECK(sum == all);
         CHECK(most <= all / cut.size() + 2 * 8 * 900);
     }
@@ -242,6 +251,12 @@ TEST_CASE("depths and intensities in codes go through an executor as they go row
     gnomon::receive(gnomon::simd<>{}, soft.view(), z.view(), made.view(), {}, backwards{&count});
     for (int y = 0; y < 65; ++y) gnomon::receive(soft.view().row_span(y), z.view().row_span(y), expected.view().row_span(y));
     CHECK(test::differences(made, expected) == 0);
+}
+
+TEST_CASE("a scratch is for 32 bands, or for as many as are asked for") {
+    CHECK(band_scratch<rg8, gaussian<4>>(10).size() == 32);
+    CHECK(band_scratch<rg8, gaussian<4>>(10, 7).size() == 7);
+    CHECK(band_scratch<rg8, gaussian<4>>(10, 0).size() == 1);
 }
 
 TEST_CASE("a soft_shadow_map hands out as many jobs as its size is worth, and no more than it was told") {

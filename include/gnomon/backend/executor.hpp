@@ -36,9 +36,9 @@ static_assert(executor<sequential>);
 namespace detail {
 /// Fewer texels are not worth the handing out.
 inline constexpr int texels_in_a_band = 1 << 14;
-/// Bands of so many texels, of `most` that there may be.
+/// Bands of so many texels, of `most` that there may be, at least one.
 [[nodiscard]] constexpr int bands_of(std::int64_t texels, int most) noexcept {
-    return static_cast<int>(lesser<std::int64_t>(texels / texels_in_a_band + 1, greater(most, 1)));
+    return static_cast<int>(lesser<std::int64_t>(texels / texels_in_a_band + 1, most));
 }
 } // namespace detail
 
@@ -72,9 +72,8 @@ template <typename Walk> class band_cut {
     band_cut(const Walk& walk, int most) noexcept : walk_(walk), texels_(texels_in(walk)), bands_(bands_of(texels_, most)) {}
 
     [[nodiscard]] int size() const noexcept { return bands_; }
-    /// Calls f(texel_rect) for what belongs to a band: whole rows of a region; each row belongs to one.
+    /// Calls f(texel_rect) for what belongs to a band: whole rows of a region; each row belongs to one. A band too many has none.
     template <typename F> void for_each(int band, F&& f) const {
-        if (band >= bands_) return;
         const std::int64_t first = begin(band), last = begin(band + 1);
         std::int64_t at = 0;
         walk_([&](texel_rect r) {
