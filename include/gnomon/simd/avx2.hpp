@@ -27,7 +27,7 @@ struct avx2 {
     GNOMON_LANES_VOID void store(void* to, ints a) noexcept { _mm256_storeu_si256(static_cast<__m256i*>(to), a); }
     GNOMON_LANES_VOID void stream(void* to, ints a) noexcept { _mm256_stream_si256(static_cast<__m256i*>(to), a); }
     GNOMON_LANES_VOID void fence() noexcept { _mm_sfence(); }
-    GNOMON_LANES_VOID void prefetch(const void* from) noexcept { _mm_prefetch(static_cast<const char*>(from), _MM_HINT_T0); }
+    GNOMON_LANES_VOID void prefetch(const void* from) noexcept { _mm_prefetch(static_cast<const char*>(from), _MM_HINT_T1); }
     GNOMON_LANES ints repeat32(std::uint32_t v) noexcept { return _mm256_set1_epi32(static_cast<int>(v)); }
     GNOMON_LANES ints exclusive_or(ints a, ints b) noexcept { return _mm256_xor_si256(a, b); }
 

@@ -38,7 +38,7 @@ template <int Bytes> struct emulated {
     /// Stores past the caches, where there is such a way; what is stored so others see after a fence. \pre aligned to a register
     static void stream(void* to, ints a) noexcept { store(to, a); }
     static void fence() noexcept {}
-    /// Calls for memory that will soon be read; any address will do.
+    /// Calls for memory that will be read before long, into the second of the caches; any address will do.
     static void prefetch(const void*) noexcept {}
     /// The same 32 bits again and again.
     [[nodiscard]] static ints repeat32(std::uint32_t v) noexcept {

@@ -25,7 +25,7 @@ struct neon {
     GNOMON_LANES_VOID void store(void* to, ints a) noexcept { vst1q_u8(static_cast<std::uint8_t*>(to), a); }
     GNOMON_LANES_VOID void stream(void* to, ints a) noexcept { store(to, a); }
     GNOMON_LANES_VOID void fence() noexcept {}
-    GNOMON_LANES_VOID void prefetch(const void* from) noexcept { __builtin_prefetch(from); }
+    GNOMON_LANES_VOID void prefetch(const void* from) noexcept { __builtin_prefetch(from, 0, 2); }
     GNOMON_LANES ints repeat32(std::uint32_t v) noexcept { return bytes_of(vdupq_n_u32(v)); }
     GNOMON_LANES ints exclusive_or(ints a, ints b) noexcept { return veorq_u8(a, b); }
 

@@ -25,7 +25,7 @@ struct sse2 {
     GNOMON_LANES_VOID void store(void* to, ints a) noexcept { _mm_storeu_si128(static_cast<__m128i*>(to), a); }
     GNOMON_LANES_VOID void stream(void* to, ints a) noexcept { _mm_stream_si128(static_cast<__m128i*>(to), a); }
     GNOMON_LANES_VOID void fence() noexcept { _mm_sfence(); }
-    GNOMON_LANES_VOID void prefetch(const void* from) noexcept { _mm_prefetch(static_cast<const char*>(from), _MM_HINT_T0); }
+    GNOMON_LANES_VOID void prefetch(const void* from) noexcept { _mm_prefetch(static_cast<const char*>(from), _MM_HINT_T1); }
     GNOMON_LANES ints repeat32(std::uint32_t v) noexcept { return _mm_set1_epi32(static_cast<int>(v)); }
     GNOMON_LANES ints exclusive_or(ints a, ints b) noexcept { return _mm_xor_si128(a, b); }
 
