@@ -28,6 +28,8 @@ constexpr extent map_size{96, 80};
 using test::for_each_isa;
 using dice = test::world_dice;
 
+static_assert(sizeof(on_any::triangle_setup<emulated<256>>) > 0); // a bit for each of 32 lanes: there is room for no more
+
 struct mesh_data {
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;

@@ -76,9 +76,11 @@ template <texel_format Texel, kernel Kernel> struct sums {
         return w * v;
     }
     template <typename Number> [[nodiscard]] static constexpr Number add(Number sum, Number w, Number a, Number b) noexcept {
-        if constexpr (!in_floats) return sum + w * a + w * b;
-        const float both = static_cast<float>(a) + static_cast<float>(b);
-        return static_cast<Number>(static_cast<float>(sum) + static_cast<float>(product(w, static_cast<Number>(both))));
+        if constexpr (in_floats) {
+            const auto both = static_cast<Number>(static_cast<float>(a) + static_cast<float>(b));
+            return static_cast<Number>(static_cast<float>(sum) + static_cast<float>(product(w, both)));
+        }
+        return sum + w * a + w * b;
     }
     [[nodiscard]] static constexpr element between(element sum) noexcept {
         if constexpr (stored_between)
