@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 using namespace gnomon;
@@ -226,6 +227,39 @@ TEST_CASE_TEMPLATE("lanes cast and bound as the scalar rasteriser does, whatever
         });
     }
     CHECK(changed > 10000);
+}
+
+TEST_CASE_TEMPLATE("lanes cast and bound rows of several pieces as the scalar rasteriser does, and write nothing beside them",
+                   Texel, rg8, rg16f, tm8, rgb16, rgba32f) {
+    dice roll{std::mt19937_64(40)};
+    constexpr extent wide{3 * detail::row_piece, 7}, around{wide.width + 40, wide.height + 2};
+    const light_frame light = plain_frame(wide);
+    int changed = 0;
+    for (int i = 0; i < 40; ++i) {
+        mesh_data near, far;
+        const double at = roll(-20.0, 20.0), across = roll(230.0, 600.0);
+        for (const auto& [mesh, depth] : {std::pair{&near, 0.1}, std::pair{&far, 0.6}}) {
+            const auto corner = [&, depth = depth](double x, double y) {
+                return glm::dvec3(256 * x, 256 * y, depth + roll(0.0, 0.2));
+            };
+            mesh->add(corner(at, -1), corner(at + across, roll(-1.0, 3.0)), corner(at + roll(-9.0, 9.0), 9));
+            mesh->add(corner(at + across, 2), corner(at + across, 7), corner(at + roll(0.0, 300.0), 4));
+        }
+        image<Texel> expected(around, Texel::clear());
+        const auto cast = [&](auto run, image<Texel>& map) {
+            const image_view<Texel> view = map.view().part({20, 1, 20 + wide.width, 1 + wide.height});
+            cast_triangles(run, view, near.mesh(), light, faces::both);
+            if constexpr (Texel::effects.far_bound) bound_triangles(run, view, far.mesh(), light, faces::both);
+        };
+        cast(scalar{}, expected);
+        changed += test::differences(expected, image<Texel>(around, Texel::clear()));
+        for_each_isa([&]<typename Isa>() {
+            image<Texel> made(around, Texel::clear());
+            cast(simd<Isa>{}, made);
+            CHECK(test::differences(made, expected) == 0);
+        });
+    }
+    CHECK(changed > 40 * 600);
 }
 
 TEST_CASE(
