@@ -105,19 +105,26 @@ template <typename Pass, texel_format Texel> struct filter_room {
     }
 };
 
-/// So many channels of a row out of a line: straight to where they go, or by way of `made`, past the caches or because a register
-/// would reach beyond the row.
+/// A register after the other, so many rows at once: so many channels, no fewer than one holds, out of lines that `line` begins.
+template <typename Pass, typename Storage>
+void make_rows(const typename Pass::element* line, int plane, Storage* const* to, int rows, int count) noexcept {
+    for (int at = 0; at < count; at += Pass::step) {
+        const int i = lesser(at, count - Pass::step);
+        for (int j = 0; j < rows; ++j) Pass::row(line + j * Pass::planes * plane + Pass::place(i), plane, to[j] + i);
+    }
+}
+
+/// The same of one row by way of `made`: past the caches, or because a register would reach beyond the row.
 template <typename Isa, typename Pass, typename Storage>
 void make_row(const typename Pass::element* line, int plane, Storage* to, int count, bool past_caches, Storage* made) noexcept {
-    Storage* const out = past_caches || count < Pass::step ? made : to;
     for (int at = 0; at < count; at += Pass::step) {
         const int i = greater(lesser(at, count - Pass::step), 0);
-        Pass::row(line + Pass::place(i), plane, out + i);
+        Pass::row(line + Pass::place(i), plane, made + i);
     }
     const auto bytes = static_cast<std::size_t>(count) * sizeof(Storage);
     if (past_caches)
         stream<Isa>(to, made, bytes);
-    else if (out == made)
+    else
         std::memcpy(to, made, bytes);
 }
 
@@ -159,10 +166,16 @@ bool filter_rows(image_view<const Texel> from, image_view<Texel> to, texel_rect 
                 rows[t] = there ? channels_of(from.row(row)) + first : channels_of(room.nothing()) + first % channels;
             }
             pass::columns(rows, prefetched ? rows + rows_summed : nullptr, room.line(0), room.plane, last - first);
-            for (int j = 0; j < lesser(rows_at_once, region.y1 - y); ++j)
-                for (int x = x0; x < x1; x += pass::piece)
-                    make_row<Isa, pass>(sums(j) + pass::place(x - x0), room.plane, channels_of(to.row(y + j)) + x,
-                                        lesser(pass::piece, x1 - x), past_caches, made);
+            storage* made_rows[rows_at_once];
+            const int count = lesser(rows_at_once, region.y1 - y);
+            for (int j = 0; j < count; ++j) made_rows[j] = channels_of(to.row(y + j)) + x0;
+            if (past_caches || x1 - x0 < pass::step)
+                for (int j = 0; j < count; ++j)
+                    for (int x = 0; x < x1 - x0; x += pass::piece)
+                        make_row<Isa, pass>(sums(j) + pass::place(x), room.plane, made_rows[j] + x,
+                                            lesser(pass::piece, x1 - x0 - x), past_caches, made);
+            else
+                make_rows<pass>(sums(0), room.plane, made_rows, count, x1 - x0);
         }
     }
     if (past_caches) Isa::fence();
