@@ -213,7 +213,7 @@ def judge(tree, header, mutant, near):
         (overlay / header).parent.mkdir(parents=True)
         (overlay / header).write_text(mutant.text)
         concerned = {t for t in tree.concerned(header) if t.is_near(header) or not near}
-        own = [t for t in concerned if t.is_of(header) and not t.isa]
+        own = [t for t in concerned if t.is_of(header) and not t.isa] or [t for t in concerned if t.is_near(header) and not t.isa]
         while concerned:
             test = max(concerned, key=lambda t: t.promise(header))
             concerned.remove(test)
