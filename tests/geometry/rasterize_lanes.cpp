@@ -239,7 +239,7 @@ TEST_CASE_TEMPLATE("lanes cast and bound rows of several pieces as the scalar ra
         mesh_data near, far;
         const double at = roll(-20.0, 20.0), across = roll(230.0, 600.0);
         for (const auto& [mesh, depth] : {std::pair{&near, 0.1}, std::pair{&far, 0.6}}) {
-            const auto corner = [&, depth = depth](double x, double y) {
+            const auto corner = [&, behind = depth](double x, double y) {
                 return glm::dvec3(256 * x, 256 * y, behind + roll(0.0, 0.2));
             };
             mesh->add(corner(at, -1), corner(at + across, roll(-1.0, 3.0)), corner(at + roll(-9.0, 9.0), 9));

@@ -41,26 +41,26 @@ template <typename Isa> int wrong_sums(const memory* m) {
            differing<Isa>(Isa::template multiply_shift32<45>(a, b), same::template multiply_shift32<45>(e, f));
 }
 
-/// How many registers that are cut out of two are not what lies there in memory.
-template <typename Isa, typename Number> int wrong_straddles(const memory* m) {
-    constexpr int lanes = Isa::bytes / static_cast<int>(sizeof(Number));
-    Number both[static_cast<std::size_t>(2 * lanes)], cut[static_cast<std::size_t>(lanes)];
-    std::memcpy(both, m[0].byte, sizeof cut);
-    std::memcpy(both + lanes, m[1].byte, sizeof cut);
-    const auto low = Isa::load(both), high = Isa::load(both + lanes);
-    const auto wrong = [&]<int Places>() {
-        Isa::store(cut, Isa::template straddle<Places>(low, high));
-        return std::memcmp(cut, both + Places, sizeof cut) != 0;
-    };
-    return [&]<int... I>(std::integer_sequence<int, I...>) {
-        return (wrong.template operator()<I + 1>() + ...);
-    }(std::make_integer_sequence<int, lanes - 1>{});
-}
-
 /// The same of those that only some lanes have.
 template <typename Isa> int wrong_fours(const memory* m) {
     int n = 0;
-    if constexpr (gnomon::straddles<Isa>) n += wrong_straddles<Isa, float>(m) + wrong_straddles<Isa, double>(m);
+    if constexpr (gnomon::straddles<Isa>) { // a register that is cut out of two is what lies there in memory
+        const auto straddles_wrongly = [m]<typename Number>(Number) {
+            constexpr int lanes = Isa::bytes / static_cast<int>(sizeof(Number));
+            Number both[static_cast<std::size_t>(2 * lanes)], cut[static_cast<std::size_t>(lanes)];
+            std::memcpy(both, m[0].byte, sizeof cut);
+            std::memcpy(both + lanes, m[1].byte, sizeof cut);
+            const auto low = Isa::load(both), high = Isa::load(both + lanes);
+            const auto wrong = [&]<int Places>() {
+                Isa::store(cut, Isa::template straddle<Places>(low, high));
+                return std::memcmp(cut, both + Places, sizeof cut) != 0;
+            };
+            return [&]<int... I>(std::integer_sequence<int, I...>) {
+                return (wrong.template operator()<I + 1>() + ...);
+            }(std::make_integer_sequence<int, lanes - 1>{});
+        };
+        n += straddles_wrongly(0.0f) + straddles_wrongly(0.0);
+    }
     if constexpr (gnomon::sums_quads<Isa>) {
         using same = gnomon::emulated<Isa::bytes>;
         const auto a = Isa::load(m[0].byte), b = Isa::load(m[1].byte), c = Isa::load(m[2].byte);
