@@ -105,27 +105,36 @@ template <typename Pass, texel_format Texel> struct filter_room {
     }
 };
 
-/// A register after the other, so many rows at once: so many channels, no fewer than one holds, out of lines that `line` begins.
-template <typename Pass, typename Storage>
-void make_rows(const typename Pass::element* line, int plane, Storage* const* to, int rows, int count) noexcept {
-    for (int at = 0; at < count; at += Pass::step) {
-        const int i = lesser(at, count - Pass::step);
-        for (int j = 0; j < rows; ++j) Pass::row(line + j * Pass::planes * plane + Pass::place(i), plane, to[j] + i);
+/// So many channels of a row out of a line by way of memory of its own: past the caches, or because a register would reach beyond it.
+template <typename Isa, typename Pass, typename Storage>
+void make_row(const typename Pass::element* line, int plane, Storage* to, int count, bool past_caches) noexcept {
+    alignas(64) Storage made[static_cast<std::size_t>(Pass::piece + Pass::step)];
+    for (int first = 0; first < count; first += Pass::piece) {
+        const int channels = lesser(Pass::piece, count - first);
+        for (int at = 0; at < channels; at += Pass::step) {
+            const int i = greater(lesser(at, channels - Pass::step), 0);
+            Pass::row(line + Pass::place(first + i), plane, made + i);
+        }
+        const auto bytes = static_cast<std::size_t>(channels) * sizeof(Storage);
+        if (past_caches)
+            stream<Isa>(to + first, made, bytes);
+        else
+            std::memcpy(to + first, made, bytes);
     }
 }
 
-/// The same of one row by way of `made`: past the caches, or because a register would reach beyond the row.
+/// So many channels of some rows out of the lines that `line` begins, a register of each row in turn.
 template <typename Isa, typename Pass, typename Storage>
-void make_row(const typename Pass::element* line, int plane, Storage* to, int count, bool past_caches, Storage* made) noexcept {
-    for (int at = 0; at < count; at += Pass::step) {
-        const int i = greater(lesser(at, count - Pass::step), 0);
-        Pass::row(line + Pass::place(i), plane, made + i);
+void make_rows(const typename Pass::element* line, int plane, Storage* const* to, int rows, int count, bool past_caches) noexcept {
+    const auto line_of = [&](int row) { return line + row * Pass::planes * plane; };
+    if (past_caches || count < Pass::step) {
+        for (int j = 0; j < rows; ++j) make_row<Isa, Pass>(line_of(j), plane, to[j], count, past_caches);
+        return;
     }
-    const auto bytes = static_cast<std::size_t>(count) * sizeof(Storage);
-    if (past_caches)
-        stream<Isa>(to, made, bytes);
-    else
-        std::memcpy(to, made, bytes);
+    for (int at = 0; at < count; at += Pass::step) {
+        const int i = lesser(at, count - Pass::step);
+        for (int j = 0; j < rows; ++j) Pass::row(line_of(j) + Pass::place(i), plane, to[j] + i);
+    }
 }
 
 /// filter_region in lanes, for a region within both images. False, and nothing done, where rows are shorter than a register or the
@@ -144,8 +153,6 @@ bool filter_rows(image_view<const Texel> from, image_view<Texel> to, texel_rect 
     const auto bytes_of = [](int width, int height) { return std::int64_t{width} * height * std::int64_t{sizeof(Texel)}; };
     const bool prefetched = bytes_of(from.width(), from.height()) >= prefetched_bytes;
     const bool past_caches = bytes_of(region.width(), region.height()) >= streamed_bytes;
-
-    alignas(64) storage made[static_cast<std::size_t>(pass::piece + pass::step)];
     if (region.y0 < Kernel::radius || region.y1 > from.height() - Kernel::radius - 2 * rows_at_once) room.clear_nothing();
     for (int x0 = region.x0 * channels; x0 < region.x1 * channels; x0 += room.strip) {
         const int x1 = lesser(x0 + room.strip, region.x1 * channels), left = x0 - margin, right = x1 + margin;
@@ -166,16 +173,10 @@ bool filter_rows(image_view<const Texel> from, image_view<Texel> to, texel_rect 
                 rows[t] = there ? channels_of(from.row(row)) + first : channels_of(room.nothing()) + first % channels;
             }
             pass::columns(rows, prefetched ? rows + rows_summed : nullptr, room.line(0), room.plane, last - first);
-            storage* made_rows[rows_at_once];
+            storage* out[static_cast<std::size_t>(rows_at_once)];
             const int count = lesser(rows_at_once, region.y1 - y);
-            for (int j = 0; j < count; ++j) made_rows[j] = channels_of(to.row(y + j)) + x0;
-            if (past_caches || x1 - x0 < pass::step)
-                for (int j = 0; j < count; ++j)
-                    for (int x = 0; x < x1 - x0; x += pass::piece)
-                        make_row<Isa, pass>(sums(j) + pass::place(x), room.plane, made_rows[j] + x,
-                                            lesser(pass::piece, x1 - x0 - x), past_caches, made);
-            else
-                make_rows<pass>(sums(0), room.plane, made_rows, count, x1 - x0);
+            for (int j = 0; j < count; ++j) out[j] = channels_of(to.row(y + j)) + x0;
+            make_rows<Isa, pass>(sums(0), room.plane, out, count, x1 - x0, past_caches);
         }
     }
     if (past_caches) Isa::fence();
