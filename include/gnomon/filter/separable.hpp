@@ -63,10 +63,9 @@ template <texel_format Texel, kernel Kernel> struct sums {
     template <typename Number> [[nodiscard]] static constexpr Number weight(int tap) noexcept {
         return static_cast<Number>(weights_of::weights[static_cast<std::size_t>(tap)]) / static_cast<Number>(unit);
     }
-    /// The weights of both passes. A float: where it is none, nearest to it.
+    /// The weights of both passes; floats are divided by the nearest float.
     static constexpr wide whole = [] {
         constexpr auto total = static_cast<wide>(weights_of::total) / static_cast<wide>(unit);
-        if constexpr (in_floats) return static_cast<wide>(static_cast<float>(total * total));
         return stored_between ? total : total * total;
     }();
 
