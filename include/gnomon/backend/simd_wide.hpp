@@ -49,6 +49,12 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         return w;
     }();
     GNOMON_LANES numbers weight(int distance) noexcept { return Isa::repeat(weights[static_cast<std::size_t>(distance)]); }
+    /// What a sum begins with, rounded by itself.
+    GNOMON_LANES numbers product(numbers w, numbers a) noexcept {
+        numbers begun = Isa::multiply(w, a);
+        Isa::settle(begun);
+        return begun;
+    }
     /// Two taps more of one weight. (See detail::sums.) Whole codes are summed first, for that rounds nothing and is quicker.
     GNOMON_LANES numbers add(numbers sum, numbers w, numbers a, numbers b) noexcept {
         if constexpr (by::in_floats || channel_type::whole_codes)
@@ -75,7 +81,7 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
             GNOMON_UNROLL(4)
             for (int j = 0; j < rows_at_once; ++j) {
                 const numbers* const centre = values + j + Kernel::radius;
-                numbers sum = Isa::multiply(*centre, weight(0));
+                numbers sum = product(weight(0), *centre);
                 GNOMON_UNROLL(16)
                 for (int d = 1; d <= Kernel::radius; ++d) sum = add(sum, weight(d), centre[-d], centre[d]);
                 if constexpr (!channel_type::whole_codes && !by::in_floats) { // detail::to_bits<36>
@@ -105,7 +111,7 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         constexpr auto whole = static_cast<Number>(by::whole);
         const Number* const centre = line + margin;
         const numbers here = Isa::load(centre);
-        numbers sum = Isa::multiply(here, weight(0));
+        numbers sum = product(weight(0), here);
         constexpr int near = straddles<Isa> ? lesser(Kernel::radius, lesser(2, (step - 1) / Texel::channels)) : 0;
         if constexpr (near > 0) {
             const numbers before = Isa::load(centre - step), behind = Isa::load(centre + step);
