@@ -29,8 +29,8 @@ void add(const char* build, std::span<const flags::kernel> kernels) {
 template <typename Isa> struct unasked {
     template <typename Texel, kernel Kernel>
     void filter_region(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
-                       filter_scratch<Texel, Kernel>&) const noexcept {
-        detail::filter_on<Isa, Kernel>(from, to, region);
+                       filter_scratch<Texel, Kernel>& scratch) const noexcept {
+        detail::filter_on<Isa, Kernel>(from, to, region, scratch.line());
     }
     template <typename Texel>
     void receive(strided_span<const Texel> texels, strided_span<const float> z, strided_span<float> intensity,

@@ -36,7 +36,7 @@ static_assert(executor<sequential>);
 namespace detail {
 /// Fewer texels are not worth the handing out.
 inline constexpr int texels_in_a_band = 1 << 14;
-/// Bands of so many texels, of `most` that there may be, at least one.
+/// Bands of so many texels, no more than `most`.
 [[nodiscard]] constexpr int bands_of(std::int64_t texels, int most) noexcept {
     return static_cast<int>(lesser<std::int64_t>(texels / texels_in_a_band + 1, most));
 }
