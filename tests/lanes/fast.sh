@@ -3,6 +3,7 @@ run_lane() { preset_lanes quick strict asan; }
 
 preset_lanes() {
     local packages=("${base_packages[@]}") preset began report status
+    [[ $* == *quick* ]] && packages+=(libbenchmark-dev)
     [[ $* == *strict* ]] && packages+=(clang libclang-rt-dev)
     need_packages "${packages[@]}"
     for preset in "$@"; do
