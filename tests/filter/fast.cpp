@@ -47,7 +47,7 @@ image<texel<float32>> summed(const image<texel<float32>>& from, const test::taps
             for (int i = 0; i <= k.radius; ++i) {
                 const int dx = along_x ? i : 0, dy = along_x ? 0 : i;
                 const float both = i == 0 ? at(x, y).stored[c] : at(x - dx, y - dy).stored[c] + at(x + dx, y + dy).stored[c];
-                const auto product = static_cast<float>(double{both} * k.at(i) / unit); // exact before it is rounded
+                const auto product = static_cast<float>(static_cast<double>(both) * k.at(i) / unit); // exact before it is rounded
                 to(x, y).stored[c] = i == 0 ? product : to(x, y).stored[c] + product;
             }
     });

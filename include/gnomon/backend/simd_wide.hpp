@@ -112,14 +112,14 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         const Number* const centre = line + margin;
         const numbers here = Isa::load(centre);
         numbers sum = product(weight(0), here);
-        constexpr int near = straddles<Isa> ? lesser(Kernel::radius, lesser(2, (step - 1) / Texel::channels)) : 0;
-        if constexpr (near > 0) {
+        constexpr int held = straddles<Isa> ? lesser(Kernel::radius, lesser(2, (step - 1) / Texel::channels)) : 0;
+        if constexpr (held > 0) {
             const numbers before = Isa::load(centre - step), behind = Isa::load(centre + step);
             sum = add_near<1>(sum, before, here, behind);
-            if constexpr (near > 1) sum = add_near<2>(sum, before, here, behind);
+            if constexpr (held > 1) sum = add_near<2>(sum, before, here, behind);
         }
         GNOMON_UNROLL(16)
-        for (int d = near + 1; d <= Kernel::radius; ++d)
+        for (int d = held + 1; d <= Kernel::radius; ++d)
             sum = add(sum, weight(d), Isa::load(centre - d * Texel::channels), Isa::load(centre + d * Texel::channels));
         if constexpr (!Texel::representation_type::premultiplied) {
             double sums[static_cast<std::size_t>(step)];
