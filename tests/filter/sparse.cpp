@@ -119,7 +119,11 @@ TEST_CASE("a map of which so much has to be written that the whole is cheaper is
     for (int y = 0; y < 20; ++y)
         for (int x = y % 2; x < 20; x += 2) scattered.mark({10 * x + 5, 10 * y + 5, 10 * x + 6, 10 * y + 6}, 4);
     CHECK_FALSE(gnomon::regions_to_filter<box<4>>(scattered).all());
-    CHECK(gnomon::regions_to_filter<box<5>>(scattered).all());
+    const gnomon::regions_to_filter<box<5>> everything(scattered);
+    CHECK(everything.all());
+    std::vector<texel_rect> as_one;
+    everything([&](texel_rect r) { as_one.push_back(r); });
+    CHECK(as_one == std::vector{texel_rect{0, 0, side, side}});
     CHECK_FALSE(gnomon::regions_to_filter<box<5>>(tile_grid{}).all());
 }
 

@@ -46,6 +46,9 @@ class Mutant:
     before: str
     after: str
     text: str
+    start: int
+    end: int
+    replacement: str
 
 
 def tokens_of(text):
@@ -158,5 +161,5 @@ def mutants_of(text):
         first = text.rfind("\n", 0, start) + 1
         last = text.find("\n", end)
         before, after = (" ".join(part.split()) for part in (text[first:last], text[first:start] + replacement + text[end:last]))
-        found.append(Mutant(text.count("\n", 0, start) + 1, start - first + 1, before, after, changed))
+        found.append(Mutant(text.count("\n", 0, start) + 1, start - first + 1, before, after, changed, start, end, replacement))
     return found

@@ -1,12 +1,11 @@
 """Breaks include/gnomon one small piece at a time; each time some test must turn red.
 
-A mutant is a copy of one header with one change. The tests whose includes reach that header are compiled against it and run, one
-source a program, the likeliest first, until one fails: most mutants need one, and of that a second. A test of many sets of lanes is asked about one of them
-before. What survives them all must also survive the files that must not compile, and the header's own tests under sanitizers. Then it
-has to stand in survivors.txt with a reason; of what stands there only the header's own folder is asked, which is soon told.
+A mutant is a header with one change. The tests whose includes reach that header are compiled with all of its mutants in them, which
+sleep but for one (together.py, crowd.py), and their cases are run, the likeliest first, until one fails: that takes most mutants half a
+second. What cannot sleep, as a constant, is compiled by itself, one test a program; a test of many sets of lanes is asked about one of
+them before. What survives them all must also survive the files that must not compile, and the header's own tests under sanitizers.
+Then it has to stand in survivors.txt with a reason; of what stands there only the header's own folder is asked, which is soon told.
 
-Measured with clang++ 14 and a precompiled header, one job on an idle core: 0.7 to 2 s a mutant that is found, a minute and more
-one that survives, for it asks everything.
 Answers are kept in build/mutation/results.tsv, so an interrupted run goes on: one that was found counts until its header changes,
 a survivor until a test that reaches it does. Remove the file to begin anew."""
 import argparse
@@ -17,8 +16,6 @@ import os
 import pathlib
 import random
 import re
-import resource
-import signal
 import subprocess
 import sys
 import tempfile
@@ -26,6 +23,8 @@ import threading
 import time
 
 import mutants
+from crowd import Crowd
+from limits import FOUND_BY_CLOCK, FOUND_BY_COMPILER, FOUND_BY_TEST, OPTIONS, SURVIVED, heard, limited, processor_time
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 SANITIZERS = ("-DNDEBUG", "-fsanitize=address,undefined", "-fno-sanitize-recover=all") # asserts have had their say
@@ -38,7 +37,6 @@ ELSEWHERE = {"gnomon/simd/neon.hpp": "it is for another processor: ./tests/run -
 ONE_ISA = {"gnomon/simd/sse2.hpp": "sse2", "gnomon/simd/avx2.hpp": "avx2", "gnomon/simd/avx512.hpp": "avx512",
            "gnomon/simd/emulated.hpp": "emulated<32>"}
 ANY_ISA = "emulated<48>"
-FOUND_BY_TEST, FOUND_BY_COMPILER, FOUND_BY_CLOCK, SURVIVED = "test", "compiler", "clock", "survived"
 
 
 def digest(*parts):
@@ -92,10 +90,16 @@ class Tree:
         self.sources = [Test(self, p) for p in sorted(self.tests.glob("*/*.cpp")) if p.parent.name not in ("compile_fail", "coverage", "fuzz", "golden", "odr")]
         self.sources += [Test(self, t.path, isa) for t in self.sources if t.has_many_isas for isa in [ANY_ISA, *ONE_ISA.values()]]
         self.refusals = [Test(self, p) for p in sorted((self.tests / "compile_fail").glob("*.cpp"))]
-        self.flavours, self.lock = {}, threading.Lock()
+        self.flavours, self.crowds, self.lock, self.alone = {}, {}, threading.Lock(), False
 
     def concerned(self, header):
         return {t for t in self.sources if header in t.reaches and t.isa in (None, ONE_ISA.get(header, ANY_ISA))}
+
+    def crowd(self, header):
+        with self.lock:
+            if header not in self.crowds:
+                self.crowds[header] = Crowd(self, header)
+            return self.crowds[header]
 
     def own_headers(self, path):
         return {name for quote, name in INCLUDE.findall(path.read_text()) if name in self.headers}
@@ -129,18 +133,6 @@ class Tree:
             return self.flavours[options]
 
 
-def limited(seconds, command, memory="unlimited", **more):
-    """Runs a command under a limit of processor time, so that a busy machine does not count as an endless loop; and of memory in kB."""
-    shell = 'ulimit -S -t "$0"; ulimit -S -v "$1"; shift; exec "$@"'
-    return subprocess.run(["sh", "-c", shell, str(int(seconds) + 1), memory, *map(str, command)], capture_output=True, text=True, errors="replace", **more)
-
-
-def processor_time():
-    """Seconds of all children so far: beside other jobs too many, which only makes a limit generous."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
-
-
 def code_of(work):
     return hashlib.sha256((work / "code.o").read_bytes()).hexdigest()[:16]
 
@@ -161,16 +153,12 @@ def ask(tree, test, overlay, work, options=(), peek=False):
     if built.returncode != 0: # not the mutant's fault: a full disk, no memory
         raise RuntimeError(f"{test.name} was not compiled: {built.stderr[-2000:]}")
     allowed = 0 if peek else 2 + 2 * (test.seconds or 60) * (5 if options else 1)
-    ran = limited(allowed, [program, "-aa=1", "-nc"], "unlimited" if options else "4000000",
+    ran = limited(allowed, [program, *OPTIONS], "unlimited" if options else "4000000",
                   env={**os.environ, "ASAN_OPTIONS": "detect_leaks=0:hard_rss_limit_mb=4000"})
-    if ran.returncode == 0 and re.search(r"test cases: +[1-9]", ran.stdout):
+    answer, said = heard(ran, test.name)
+    if answer == FOUND_BY_CLOCK and peek:
         return SURVIVED, ""
-    if ran.returncode == -signal.SIGKILL:
-        raise RuntimeError(f"{test.name} was killed from outside")
-    if ran.returncode == -signal.SIGXCPU:
-        return (SURVIVED, "") if peek else (FOUND_BY_CLOCK, test.name)
-    case = re.search(r"^TEST CASE: +(.*)$", ran.stdout, re.MULTILINE)
-    return FOUND_BY_TEST, f"{test.name}: {case[1] if case else 'died'}" + (" (sanitizers)" if options else "")
+    return answer, said + " (sanitizers)" if answer == FOUND_BY_TEST and options else said
 
 
 def prove(tree, test):
@@ -205,8 +193,19 @@ def timed(tree, test):
         return processor_time() - began, code_of(pathlib.Path(folder))
 
 
+def refused(tree, test, overlay):
+    """Does the compiler alone find it, by a static_assert perhaps?"""
+    compiler, _ = tree.flavour("-O0", *test.options)
+    return limited(120, [*compiler, f"-I{overlay}", f"-I{tree.include}", "-fsyntax-only", test.path]).returncode == 1
+
+
 def judge(tree, header, mutant, near):
-    """The answer for one mutant: the first test that turns red, or that none does."""
+    """The answer for one mutant: the first test that turns red, or that none does.
+
+    One that a test has called, and that survived all of them, need not be compiled alone, but for what the compiler computes."""
+    answer, called = ((SURVIVED, ""), False) if tree.alone else tree.crowd(header).ask(mutant, near)
+    if answer[0] != SURVIVED:
+        return answer
     with tempfile.TemporaryDirectory(dir=tree.build) as folder:
         work = pathlib.Path(folder)
         overlay = work / "include"
@@ -217,6 +216,10 @@ def judge(tree, header, mutant, near):
         while concerned:
             test = max(concerned, key=lambda t: t.promise(header))
             concerned.remove(test)
+            if called:
+                if not test.isa and refused(tree, test, overlay):
+                    return FOUND_BY_COMPILER, test.name
+                continue
             prove(tree, test)
             if test.seconds > FAR and not test.is_near(header):
                 continue
@@ -361,6 +364,7 @@ def main(line=None):
     parser.add_argument("--list", action="store_true", help="say how many mutants there are, and run none")
     parser.add_argument("--explained", action="store_true", help="say what survivors.txt explains and nobody can make, and run none")
     parser.add_argument("--near", action="store_true", help="ask the tests of the header's own folder alone: quick, to work on these")
+    parser.add_argument("--alone", action="store_true", help="compile each mutant by itself: slow, and says the same")
     parser.add_argument("--sample", type=int, metavar="N", help="only N mutants, drawn by --seed")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1, metavar="N")
@@ -369,6 +373,7 @@ def main(line=None):
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2], help="the project; this one if left out")
     given = parser.parse_args(line)
     tree = Tree(given.root.resolve(), given.compiler)
+    tree.alone = given.alone
     if given.explained:
         complaints = Explained(tree.tests / "mutation" / "survivors.txt").impossible(tree)
         print("".join(f"STALE {complaint}\n" for complaint in complaints), end="")

@@ -82,16 +82,21 @@ def main():
             shutil.copy(HERE.parent / path, root / "tests" / path)
         explained, log = root / "tests/mutation/survivors.txt", root / "build/mutation/results.tsv"
 
-        def run(*paragraphs):
+        def run(*paragraphs, options=()):
             explained.write_text("\n".join(paragraphs))
-            return mutate.main(["--root", str(root), "--compiler", compiler])
+            return mutate.main(["--root", str(root), "--compiler", compiler, *options])
+
+        def kept():
+            """mutant -> answer, and what said so: the last ones in the log"""
+            return {line.split("\t")[1]: line.split("\t")[2:4] for line in log.read_text().splitlines()}
 
         def expect(true, sentence):
             print(f"{'as it must be' if true else 'WRONG'}: {sentence}", flush=True)
             wrong.extend([] if true else [sentence])
 
         expect(run() == 1, "a header with unexplained survivors fails")
-        answers = [line.split("\t")[2:4] for line in log.read_text().splitlines()]
+        together = kept()
+        answers = list(together.values())
         survivors = [answer for answer, _ in answers if answer == mutate.SURVIVED]
         expect(len(survivors) == SURVIVORS.count("+ c") + SURVIVORS.count("+ i"), "what no test asks about survives, and nothing else")
         for what, seen in (("a test finds", [mutate.FOUND_BY_TEST, "unit/small.cpp: everything small but what is unproved"]),
@@ -100,8 +105,13 @@ def main():
                            ("a file that must not compile finds", [mutate.FOUND_BY_COMPILER, "compile_fail/natural.cpp"])):
             expect(seen in answers, f"{what} a mutant")
         expect(any(said.endswith("(sanitizers)") for _, said in answers), "only sanitizers find an index off its array")
+        log.unlink()
+        run(options=["--alone"])
+        alone = kept()
+        expect(together.keys() == alone.keys() and all(mutate.SURVIVED not in (together[m][0], alone[m][0]) or together[m] == alone[m] for m in alone),
+               "alone the same mutants are found as together")
         expect(run(SURVIVORS) == 0, "explained survivors pass")
-        expect(len(log.read_text().splitlines()) == len(answers), "a second run asks nothing again")
+        expect(len(log.read_text().splitlines()) == len(answers), "another run asks nothing again")
         found = "- constexpr int twice(int a) { return a * 2; }\n+ constexpr int twice(int a) { return a / 2; }\n"
         expect(run(SURVIVORS, f"gnomon/small.hpp: it survives no more.\n{found}") == 1, "an explanation fails once a test finds the mutant")
         expect(run(SURVIVORS, "gnomon/small.hpp: gone.\n- int gone() { return 1; }\n+ int gone() { return 2; }\n") == 1,

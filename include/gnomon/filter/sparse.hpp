@@ -61,7 +61,6 @@ template <kernel Kernel, typename F> void for_each_region_to_filter(const tile_g
 /// Clears the texels of a rectangle on the map. Cost: its area, at the speed of memcpy.
 template <texel_format Texel> void clear_region(image_view<Texel> texels, texel_rect r) noexcept {
     r = clip(r, texels.size());
-    if (r.empty()) return;
     texels.fill({r.x0, r.y0, r.x1, r.y0 + 1}, Texel::clear());
     for (int y = r.y0 + 1; y < r.y1; ++y)
         std::memcpy(&texels(r.x0, y), &texels(r.x0, r.y0), static_cast<std::size_t>(r.width()) * sizeof(Texel));

@@ -1,0 +1,120 @@
+"""Tests with all mutants of a header in them, of which a variable of the environment wakes up one: see together.py."""
+import os
+import re
+import shutil
+import threading
+import time
+
+import mutants
+from limits import OPTIONS, SURVIVED, heard, limited
+from together import Together
+
+SLOW = 0.1 # seconds that a test case takes to be run by itself, after the quicker ones
+MEMORY = "4000000" # kB
+
+
+class Part:
+    """Some test cases of a program: all the quick ones, or a slow one. How often it was asked, and how often it found a mutant."""
+
+    def __init__(self, program, seconds, *options):
+        self.program, self.seconds, self.options, self.asked, self.found = program, seconds, options, 0, 0
+
+    def promise(self, header):
+        """Mutants found per second, guessed from the names at first."""
+        test = self.program.test
+        guess = 0.6 if test.is_of(header) else 0.3 if test.is_near(header) else 0.05
+        return (self.found + 2 * guess) / (self.asked + 2) / (self.seconds + 0.05)
+
+    def run(self, number):
+        """(answer, what said so, was the mutant called?)"""
+        self.asked += 1
+        ran = limited(3 + 3 * self.seconds, [self.program.path, *OPTIONS, *self.options], MEMORY,
+                      env={**os.environ, "GNOMON_MUTANT": str(number)})
+        answer, said = (SURVIVED, "") if self.options and ran.returncode == 0 else heard(ran, self.program.test.name)
+        self.found += answer != SURVIVED
+        return answer, said, "GNOMON_CALLED" in ran.stderr
+
+
+class Program:
+    """One test and the numbers of the mutants in it."""
+
+    def __init__(self, test, path):
+        self.test, self.path, self.numbers, self.parts = test, path, frozenset(), []
+
+    def prove(self, numbers):
+        """It must pass as long as all sleep, or it says what fails. The times are the measure from then on."""
+        ran = limited(600, [self.path, *OPTIONS, "-d=1"])
+        answer, said = heard(ran, self.test.name)
+        if answer != SURVIVED:
+            return f"it fails: {said}"
+        times = re.findall(r"^([\d.]+) s: (.*)$", ran.stdout, re.MULTILINE)
+        slow = {re.sub("[,*]", "?", case): float(seconds) for seconds, case in times if float(seconds) > SLOW}
+        if len(slow) < len(times):
+            quick = sum(float(seconds) for seconds, _ in times) - sum(slow.values())
+            self.parts.append(Part(self, quick, *(["-tce=" + ",".join(slow)] if slow else [])))
+        self.parts += [Part(self, seconds, "-tc=" + case) for case, seconds in slow.items()]
+        self.numbers = frozenset(numbers)
+        return ""
+
+
+class Crowd:
+    """The mutants of one header, and a program for each test that reaches it, compiled when it is first asked."""
+
+    def __init__(self, tree, header):
+        self.tree, self.header, self.overlay = tree, header, tree.build / "together" / header.replace("/", "_")
+        shutil.rmtree(self.overlay, ignore_errors=True)
+        (self.overlay / header).parent.mkdir(parents=True)
+        members = mutants.mutants_of(tree.text[header])
+        self.number = {m.text: k for k, m in enumerate(members, 1)}
+        self.together = Together(tree.text[header], members)
+        self.programs, self.last, self.lock = {}, None, threading.Lock()
+
+    def ask(self, mutant, near):
+        """(answer, what said so), and whether a test that passed has called the mutant."""
+        number, called = self.number[mutant.text], False
+        tests = sorted((t for t in self.tree.concerned(self.header) if t.is_near(self.header) or not near),
+                       key=lambda t: (not t.is_of(self.header), not t.is_near(self.header), t.name, t.isa or ""))
+        asked = set()
+        for own in (True, False): # the others are compiled if there is need
+            todo = {part for t in tests if t.is_of(self.header) or not own for part in self.program(t).parts} - asked
+            while todo:
+                part = self.last if self.last in todo else max(todo, key=lambda part: part.promise(self.header))
+                todo.remove(part)
+                asked.add(part)
+                if number not in part.program.numbers:
+                    continue
+                answer, said, was_called = part.run(number)
+                called = called or was_called
+                if answer != SURVIVED:
+                    self.last = part # the next mutant stands beside this one
+                    return (answer, said), True
+        return (SURVIVED, ""), called
+
+    def program(self, test):
+        """Compiled and proved, if it was not yet. One that cannot be has no parts."""
+        with self.lock:
+            if test not in self.programs:
+                began = time.monotonic()
+                program = self.programs[test] = Program(test, self.overlay / re.sub(r"\W", "_", f"{test.name} {test.isa or ''}".strip()))
+                complaint = self.compile(program) or program.prove(self.together.inside)
+                said = f"not together, {complaint[-300:]}" if complaint else f"{len(program.numbers)} of {len(self.number)} mutants together"
+                print(f"{self.header} in {program.path.name}: {said}, {time.monotonic() - began:.0f} s", flush=True)
+            return self.programs[test]
+
+    def compile(self, program):
+        """Leaves out what the compiler refuses; says what is wrong if it refuses the rest too."""
+        compiler, linker = self.tree.flavour("-O1", *program.test.options)
+        command = [*compiler, "-ferror-limit=0", f"-I{self.overlay}", f"-I{self.tree.include}", "-c", program.test.path]
+        blamed = True
+        while blamed:
+            (self.overlay / self.header).write_text(self.together.write())
+            done = limited(600, [*command, "-fsyntax-only"])
+            blamed = self.together.to_blame(self.header, done.stderr)
+            self.together.drop(blamed)
+        code = program.path.with_suffix(".o")
+        if done.returncode == 0:
+            done = limited(1200, [*command, "-o", code])
+        if done.returncode == 0:
+            done = limited(300, [*linker, code, "-o", program.path])
+        code.unlink(missing_ok=True)
+        return done.stderr if done.returncode else ""

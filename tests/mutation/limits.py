@@ -1,0 +1,32 @@
+"""Runs compilers and tests within limits, and reads what a test said."""
+import re
+import resource
+import signal
+import subprocess
+
+FOUND_BY_TEST, FOUND_BY_COMPILER, FOUND_BY_CLOCK, SURVIVED = "test", "compiler", "clock", "survived"
+OPTIONS = ("-aa=1", "-nc") # of doctest: the first check that fails says enough
+
+
+def limited(seconds, command, memory="unlimited", **more):
+    """Runs a command under a limit of processor time, so that a busy machine does not count as an endless loop; and of memory in kB."""
+    shell = 'ulimit -S -t "$0"; ulimit -S -v "$1"; shift; exec "$@"'
+    return subprocess.run(["sh", "-c", shell, str(int(seconds) + 1), memory, *map(str, command)], capture_output=True, text=True, errors="replace", **more)
+
+
+def processor_time():
+    """Seconds of all children so far: beside other jobs too many, which only makes a limit generous."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def heard(ran, name):
+    """(answer, what said so) of a test program of that name that ran within its limits."""
+    if ran.returncode == 0 and re.search(r"test cases: +[1-9]", ran.stdout):
+        return SURVIVED, ""
+    if ran.returncode == -signal.SIGKILL:
+        raise RuntimeError(f"{name} was killed from outside")
+    if ran.returncode == -signal.SIGXCPU:
+        return FOUND_BY_CLOCK, name
+    case = re.search(r"^TEST CASE: +(.*)$", ran.stdout, re.MULTILINE)
+    return FOUND_BY_TEST, f"{name}: {case[1] if case else 'died'}"
