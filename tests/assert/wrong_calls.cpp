@@ -6,6 +6,7 @@ const char* sentence_of_the_failed = "";
 } // namespace
 #define GNOMON_ASSERT(condition, sentence) ((condition) ? void() : (++failed, sentence_of_the_failed = (sentence), void()))
 #include <gnomon/backend/backend.hpp>
+#include <gnomon/backend/executor.hpp>
 #include <gnomon/backend/scalar.hpp>
 #include <gnomon/backend/simd.hpp>
 #include <gnomon/filter/pyramid.hpp>
@@ -116,6 +117,16 @@ TEST_CASE("a filter of images and tiles that differ in size is a wrong call unle
     CHECK(complaint() == sentence);
     filter(scalar{}, from.view(), to.view(), tile_grid({4, 2}, 4), scratch);
     CHECK(complaint() == sentence);
+    gnomon::band_scratch<rg8, blur> bands(8);
+    const auto in_jobs = [&](auto& source, auto& result, const tile_grid& marks) {
+        filter(scalar{}, source.view(), result.view(), marks, bands, gnomon::sequential{});
+        return complaint();
+    };
+    CHECK(in_jobs(from, to, tiles) == "");
+    CHECK(in_jobs(small, to, tile_grid()) == "");
+    CHECK(in_jobs(small, to, tiles) == sentence);
+    CHECK(in_jobs(from, small, tiles) == sentence);
+    CHECK(in_jobs(from, to, tile_grid({4, 2}, 4)) == sentence);
 }
 
 TEST_CASE("a pyramid of a map or of tiles that it was not made for is a wrong call") {

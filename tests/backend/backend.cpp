@@ -5,9 +5,11 @@
 #include "suite.hpp"
 
 #include "../support/formats.hpp"
+#include "../support/lanes.hpp"
 
 #include <doctest/doctest.h>
 
+#include <utility>
 #include <vector>
 
 namespace {
@@ -144,3 +146,21 @@ TEST_CASE("the facade runs on a backend of a user's, which sees each of its loop
 static_assert(sizeof(gnomon::soft_shadow_map<rg8, box<1>, counting>) ==
                   sizeof(gnomon::soft_shadow_map<rg8, box<1>, scalar>) + sizeof(counting),
               "a backend without state costs no byte");
+
+TEST_CASE("what lanes know is left to the lanes that are named") {
+    const image<rg8> casters({48, 3}, rg8::caster(0.5f));
+    image<rg8> soft(casters.size());
+    filter_scratch<rg8, binomial<1>> scratch(48);
+    std::vector<float> at(48, 1.5f), z(48, 0.75f), intensity(48);
+    const gnomon::simd<test::counted_lanes> run;
+    int& loads = test::counted_lanes::loads;
+    loads = 0;
+    run.filter_region(casters.view(), soft.view(), whole(soft.size()), scratch);
+    CHECK(std::exchange(loads, 0) > 0);
+    run.receive(gnomon::image_view<const rg8>(soft.view()).row_span(0), strided_span<const float>(z),
+                strided_span<float>(intensity), rule{});
+    CHECK(std::exchange(loads, 0) > 0);
+    run.receive(image_view<const rg8>(soft.view()), strided_span<const float>(at), strided_span<const float>(at),
+                strided_span<const float>(z), strided_span<float>(intensity), rule{});
+    CHECK(std::exchange(loads, 0) > 0);
+}

@@ -28,14 +28,17 @@ template <typename F> void for_each_isa(F&& f) {
 #endif
 }
 
-/// Lanes that no processor has. They would do, and tell if they were asked.
-struct lanes_to_come : gnomon::emulated<16> {
+/// Lanes that tell how often they were asked to load something.
+struct counted_lanes : gnomon::emulated<16> {
     static inline int loads = 0;
     template <typename T> static auto load(const T* from) noexcept {
         ++loads;
         return emulated::load(from);
     }
 };
+
+/// Lanes that no processor has. They would do.
+struct lanes_to_come : counted_lanes {};
 
 /// Any bits at all, so for half and float infinities, NaN and numbers beyond [0, 1] too.
 template <typename Texel> void fill_with_bits(dice& roll, gnomon::image_view<Texel> to) {
