@@ -21,8 +21,7 @@ class Part:
 
     def promise(self, header):
         """Mutants found per second, guessed from the names at first."""
-        test = self.program.test
-        guess = 0.6 if test.is_of(header) else 0.3 if test.is_near(header) else 0.05
+        guess = 0.6 if self.program.test.is_of(header) else 0.3
         return (self.found + 2 * guess) / (self.asked + 2) / (self.seconds + 0.05)
 
     def run(self, number):
@@ -58,7 +57,7 @@ class Program:
 
 
 class Crowd:
-    """The mutants of one header, and a program for each test that reaches it, compiled when it is first asked."""
+    """The mutants of one header, and a program for each test near it, compiled when it is first asked."""
 
     def __init__(self, tree, header):
         self.tree, self.header, self.overlay = tree, header, tree.build / "together" / header.replace("/", "_")
@@ -69,18 +68,15 @@ class Crowd:
         self.together = Together(tree.text[header], members)
         self.programs, self.last, self.lock = {}, None, threading.Lock()
 
-    def ask(self, mutant, near):
-        """(answer, what said so), and whether a test that passed has called the mutant."""
+    def ask(self, mutant):
+        """(answer, what said so) of the tests near the header, and whether one that passed has called the mutant."""
         number, called = self.number[mutant.text], False
-        tests = sorted((t for t in self.tree.concerned(self.header) if t.is_near(self.header) or not near),
-                       key=lambda t: (not t.is_of(self.header), not t.is_near(self.header), t.name, t.isa or ""))
-        asked = set()
+        tests = sorted((t for t in self.tree.concerned(self.header) if t.is_near(self.header)), key=lambda t: (t.name, t.isa or ""))
         for own in (True, False): # the others are compiled if there is need
-            todo = {part for t in tests if t.is_of(self.header) or not own for part in self.program(t).parts} - asked
+            todo = {part for t in tests if t.is_of(self.header) == own for part in self.program(t).parts}
             while todo:
                 part = self.last if self.last in todo else max(todo, key=lambda part: part.promise(self.header))
                 todo.remove(part)
-                asked.add(part)
                 if number not in part.program.numbers:
                     continue
                 answer, said, was_called = part.run(number)

@@ -202,8 +202,9 @@ def refused(tree, test, overlay):
 def judge(tree, header, mutant, near):
     """The answer for one mutant: the first test that turns red, or that none does.
 
-    One that a test has called, and that survived all of them, need not be compiled alone, but for what the compiler computes."""
-    answer, called = ((SURVIVED, ""), False) if tree.alone else tree.crowd(header).ask(mutant, near)
+    Of one that a test near it has called the tests near it have only to be asked whether they compile: no other code of theirs changes
+    than what the compiler computes."""
+    answer, called = ((SURVIVED, ""), False) if tree.alone else tree.crowd(header).ask(mutant)
     if answer[0] != SURVIVED:
         return answer
     with tempfile.TemporaryDirectory(dir=tree.build) as folder:
@@ -216,7 +217,7 @@ def judge(tree, header, mutant, near):
         while concerned:
             test = max(concerned, key=lambda t: t.promise(header))
             concerned.remove(test)
-            if called:
+            if called and test.is_near(header):
                 if not test.isa and refused(tree, test, overlay):
                     return FOUND_BY_COMPILER, test.name
                 continue
