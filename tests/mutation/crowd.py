@@ -69,9 +69,11 @@ class Crowd:
         self.programs, self.last, self.lock = {}, None, threading.Lock()
 
     def ask(self, mutant):
-        """(answer, what said so) of the tests near the header, and whether one that passed has called the mutant."""
-        number, called = self.number[mutant.text], False
-        tests = sorted((t for t in self.tree.concerned(self.header) if t.is_near(self.header)), key=lambda t: (t.name, t.isa or ""))
+        """(answer, what said so) of the tests near the header; of those of many sets of lanes only one set. And the tests that have
+        called the mutant and passed."""
+        number, passed = self.number[mutant.text], set()
+        tests = sorted((t for t in self.tree.concerned(self.header) if t.is_near(self.header) and t.has_many_isas == bool(t.isa)),
+                       key=lambda t: (t.name, t.isa or ""))
         for own in (True, False): # the others are compiled if there is need
             todo = {part for t in tests if t.is_of(self.header) == own for part in self.program(t).parts}
             while todo:
@@ -79,12 +81,12 @@ class Crowd:
                 todo.remove(part)
                 if number not in part.program.numbers:
                     continue
-                answer, said, was_called = part.run(number)
-                called = called or was_called
+                answer, said, called = part.run(number)
+                passed |= {part.program.test} if called else set()
                 if answer != SURVIVED:
                     self.last = part # the next mutant stands beside this one
-                    return (answer, said), True
-        return (SURVIVED, ""), called
+                    return (answer, said), passed
+        return (SURVIVED, ""), passed
 
     def program(self, test):
         """Compiled and proved, if it was not yet. One that cannot be has no parts."""

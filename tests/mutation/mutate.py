@@ -143,7 +143,8 @@ def ask(tree, test, overlay, work, options=(), peek=False):
     A peek compiles as quickly as can be and runs for a second: that finds most mutants, and says nothing about the rest."""
     program, code = work / "program", work / "code.o"
     compiler, linker = tree.flavour("-O0" if peek else test.level, *test.options, *options)
-    built = limited(120, [*compiler, f"-fmacro-prefix-map={overlay}={tree.include}", f"-I{overlay}", f"-I{tree.include}", "-c", test.path, "-o", code])
+    allowed = 600 if options else 120
+    built = limited(allowed, [*compiler, f"-fmacro-prefix-map={overlay}={tree.include}", f"-I{overlay}", f"-I{tree.include}", "-c", test.path, "-o", code])
     if built.returncode == 0:
         if test.code == code_of(work) and not options and not peek:
             return SURVIVED, ""
@@ -199,12 +200,32 @@ def refused(tree, test, overlay):
     return limited(120, [*compiler, f"-I{overlay}", f"-I{tree.include}", "-fsyntax-only", test.path]).returncode == 1
 
 
-def judge(tree, header, mutant, near):
-    """The answer for one mutant: the first test that turns red, or that none does.
+def ask_each(tree, header, tests, overlay, work, passed):
+    """The likeliest first. One that passed with the mutant called among the sleeping ones has only to be asked whether it compiles:
+    no other code of its own would change than what the compiler computes."""
+    while tests:
+        test = max(tests, key=lambda t: t.promise(header))
+        tests.remove(test)
+        if test in passed:
+            if refused(tree, test, overlay):
+                return FOUND_BY_COMPILER, test.name
+            continue
+        prove(tree, test)
+        if test.seconds > FAR and not test.is_near(header):
+            continue
+        answer = ask(tree, test, overlay, work, peek=True) if test.level != "-O0" else (SURVIVED, "")
+        if answer[0] == SURVIVED:
+            answer = ask(tree, test, overlay, work)
+        test.asked[header] += 1
+        if answer[0] != SURVIVED:
+            test.found[header] += 1
+            return answer
+    return SURVIVED, ""
 
-    Of one that a test near it has called the tests near it have only to be asked whether they compile: no other code of theirs changes
-    than what the compiler computes."""
-    answer, called = ((SURVIVED, ""), False) if tree.alone else tree.crowd(header).ask(mutant)
+
+def judge(tree, header, mutant, near):
+    """The answer for one mutant: the first test that turns red, or that none does."""
+    answer, passed = ((SURVIVED, ""), set()) if tree.alone else tree.crowd(header).ask(mutant)
     if answer[0] != SURVIVED:
         return answer
     with tempfile.TemporaryDirectory(dir=tree.build) as folder:
@@ -212,36 +233,21 @@ def judge(tree, header, mutant, near):
         overlay = work / "include"
         (overlay / header).parent.mkdir(parents=True)
         (overlay / header).write_text(mutant.text)
-        concerned = {t for t in tree.concerned(header) if t.is_near(header) or not near}
-        own = [t for t in concerned if t.is_of(header) and not t.isa] or [t for t in concerned if t.is_near(header) and not t.isa]
-        while concerned:
-            test = max(concerned, key=lambda t: t.promise(header))
-            concerned.remove(test)
-            if called and test.is_near(header):
-                if not test.isa and refused(tree, test, overlay):
-                    return FOUND_BY_COMPILER, test.name
-                continue
-            prove(tree, test)
-            if test.seconds > FAR and not test.is_near(header):
-                continue
-            answer = ask(tree, test, overlay, work, peek=True) if test.level != "-O0" else (SURVIVED, "")
-            if answer[0] == SURVIVED:
-                answer = ask(tree, test, overlay, work)
-            test.asked[header] += 1
+        concerned = tree.concerned(header)
+        of_folder = {t for t in concerned if t.is_near(header)}
+        answer = ask_each(tree, header, set(of_folder), overlay, work, passed)
+        if answer[0] != SURVIVED or near:
+            return answer
+        one_isa = [t for t in of_folder if t.has_many_isas == bool(t.isa)]
+        for test in [t for t in one_isa if t.is_of(header)] or one_isa:
+            answer = ask(tree, test, overlay, work, SANITIZERS)
             if answer[0] != SURVIVED:
-                test.found[header] += 1
                 return answer
-        if near:
-            return SURVIVED, ""
         check = ["cmake", f"-DCOMPILE={tree.compiler};-std=c++20;-I{overlay};-I{tree.include}", "-P", tree.tests / "compile_fail/check.cmake"]
         for refusal in tree.refusals:
             if header in refusal.reaches and limited(120, [check[0], f"-DSOURCE={refusal.path}", *check[1:]]).returncode != 0:
                 return FOUND_BY_COMPILER, refusal.name
-        for test in own:
-            answer = ask(tree, test, overlay, work, SANITIZERS)
-            if answer[0] != SURVIVED:
-                return answer
-    return SURVIVED, ""
+        return ask_each(tree, header, concerned - of_folder, overlay, work, set())
 
 
 class Explained:
