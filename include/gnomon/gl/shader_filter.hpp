@@ -6,6 +6,7 @@
 #include <gnomon/gl/shader_exact.hpp>
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -111,6 +112,22 @@ inline constexpr std::string_view add_floats_text = R"(    precise @vec both = g
     gnomon_sum = gnomon_sum + product;
 )";
 
+/// A pass, filled: first what is its own, then what both passes have alike, whose sums are parts of `whole`.
+template <texel_format Texel, kernel Kernel>
+[[nodiscard]] std::string filled_pass(const std::string& text, std::uint64_t whole, std::initializer_list<filling> own) {
+    using of = filter_in_gl<Texel, Kernel>;
+    return filled(filled(text, own), {{"weights", weights_text<Texel, Kernel>()},
+                                      {"taps", taps_text<Texel, Kernel>()},
+                                      {"scale", literal(Texel::channel_type::scale)},
+                                      {"half", std::to_string(whole / 2)},
+                                      {"whole", std::to_string(whole)},
+                                      {"zero", (of::whole_codes ? vec<Texel>("u") : vec<Texel>()) + "(0)"},
+                                      {"sum", of::whole_codes ? vec<Texel>("u") : "precise " + vec<Texel>()},
+                                      {"number", of::whole_codes ? "uint" : "float"},
+                                      {"uvec", vec<Texel>("u")},
+                                      {"vec", vec<Texel>()}});
+}
+
 /// How whole codes are read in the first pass: as a linear filter has to see them.
 template <texel_format Texel> [[nodiscard]] std::string linear_text() {
     const std::string codes = vec<Texel>("u") + "(gnomon_at(away) * " + literal(Texel::channel_type::scale) + " + 0.5)";
@@ -163,19 +180,10 @@ void gnomon_add(@number weight, int away) {
                                : !of::whole_codes               ? "floatBitsToUint(gnomon_sum)"
                                : of::by::stored_between         ? "(gnomon_sum + @halfu) / @wholeu"
                                                                 : "gnomon_sum";
-    return detail::filled(text, {{"weights", detail::weights_text<Texel, Kernel>()},
-                                 {"taps", detail::taps_text<Texel, Kernel>()},
-                                 {"linear", of::whole_codes ? detail::linear_text<Texel>() : ""},
-                                 {"result", result},
-                                 {"stored", vec<Texel>(of::narrow ? "" : "u")},
-                                 {"scale", detail::literal(Texel::channel_type::scale)},
-                                 {"half", std::to_string(of::total / 2)},
-                                 {"whole", std::to_string(of::total)},
-                                 {"zero", (of::whole_codes ? vec<Texel>("u") : vec<Texel>()) + "(0)"},
-                                 {"sum", of::whole_codes ? vec<Texel>("u") : "precise " + vec<Texel>()},
-                                 {"number", of::whole_codes ? "uint" : "float"},
-                                 {"uvec", vec<Texel>("u")},
-                                 {"vec", vec<Texel>()}});
+    return detail::filled_pass<Texel, Kernel>(text, of::total,
+                                              {{"linear", of::whole_codes ? detail::linear_text<Texel>() : ""},
+                                               {"result", result},
+                                               {"stored", vec<Texel>(of::narrow ? "" : "u")}});
 }
 
 namespace detail {
@@ -223,8 +231,9 @@ template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string codes_tex
 
 } // namespace detail
 
-/// The second pass and the last rounding: the map's texels from the sums of the first. Uniform usampler2D `gnomon_sums`: the scratch, as
-/// large as the map (a sampler2D by a narrow kernel); what lies to the left and right of it is clear, and of it no more is read than R columns beside a rectangle.
+/// The second pass and the last rounding: the map's texels from the sums of the first. Uniform usampler2D `gnomon_sums`: the scratch,
+/// as large as the map (a sampler2D by a narrow kernel). What lies to the left and right of it is clear; of it no more is read than R
+/// columns beside a rectangle.
 template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_rows_text() {
     detail::check_texel<Texel>();
     static_assert(kernel_is_sound<Kernel>());
@@ -272,21 +281,12 @@ void gnomon_add(@number weight, int away) {
                               : of::narrow                  ? "@vec(texelFetch(gnomon_sums, at, 0))"
                               : of::whole_codes             ? "@uvec(texelFetch(gnomon_sums, at, 0))"
                                                             : "uintBitsToFloat(@uvec(texelFetch(gnomon_sums, at, 0)))";
-    return detail::filled(text, {{"sampler", of::narrow ? "sampler2D" : "usampler2D"},
-                                 {"fetch", fetch},
-                                 {"sums", of::whole_codes ? vec<Texel>("u") : vec<Texel>()},
-                                 {"weights", detail::weights_text<Texel, Kernel>()},
-                                 {"division", detail::division_text<Texel, Kernel>()},
-                                 {"taps", detail::taps_text<Texel, Kernel>()},
-                                 {"codes", detail::codes_text<Texel, Kernel>()},
-                                 {"scale", detail::literal(Texel::channel_type::scale)},
-                                 {"half", std::to_string(of::whole / 2)},
-                                 {"whole", std::to_string(of::whole)},
-                                 {"zero", (of::whole_codes ? vec<Texel>("u") : vec<Texel>()) + "(0)"},
-                                 {"sum", of::whole_codes ? vec<Texel>("u") : "precise " + vec<Texel>()},
-                                 {"number", of::whole_codes ? "uint" : "float"},
-                                 {"uvec", vec<Texel>("u")},
-                                 {"vec", vec<Texel>()}});
+    return detail::filled_pass<Texel, Kernel>(text, of::whole,
+                                              {{"sampler", of::narrow ? "sampler2D" : "usampler2D"},
+                                               {"fetch", fetch},
+                                               {"sums", of::whole_codes ? vec<Texel>("u") : vec<Texel>()},
+                                               {"division", detail::division_text<Texel, Kernel>()},
+                                               {"codes", detail::codes_text<Texel, Kernel>()}});
 }
 
 } // namespace gl
