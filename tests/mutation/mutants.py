@@ -98,7 +98,7 @@ def is_expression(tokens, begin, end):
         if t.text in ASSIGN:
             return tokens[i + 1].text not in ("default", "delete")
         spaced = t.start > previous.end
-        if t.text == "{" or (spaced and (t.text in BINARY or previous.kind == "word" or previous.text in (">", "*", "&", ")"))):
+        if t.text == "{" or (spaced and (t.text in BINARY or previous.kind == "word" or previous.text in (">", ">>", "*", "&", ")"))):
             return False
         i = closing(tokens, i) if t.kind == "op" and t.text in OPEN else i
         previous, i = tokens[i], i + 1
