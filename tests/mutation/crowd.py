@@ -68,10 +68,6 @@ class Crowd:
         self.together = Together(tree.text[header], members)
         self.programs, self.last, self.lock = {}, None, threading.Lock()
 
-    def holds(self, mutant):
-        """Need it not be compiled alone, as far as is known?"""
-        return self.number[mutant.text] in self.together.inside
-
     def ask(self, mutant):
         """(answer, what said so) of the tests near the header; of those of many sets of lanes only one set. And the tests that have
         called the mutant and passed."""
