@@ -159,13 +159,14 @@ TEST_CASE("arithmetic and comparisons of floats give the bits of the emulated on
                              0x1p31f,
                              -0x1p31f,
                              -3e38f,
-                             2147483520.0f};
+                             2147483520.0f,
+                             -2147483520.0f};
     for_each_target([&](const checks_of& target) {
         int wrong = 0;
         for (int n = 0; n < 4000; ++n) {
             float numbers[48];
             for (int i = 0; i < 48; ++i) {
-                numbers[i] = roll.one_in(4) ? odd[roll(0, 11)] : std::ldexp(roll.unit() - 0.5f, roll(-20, 20));
+                numbers[i] = roll.one_in(4) ? odd[roll(0, 12)] : std::ldexp(roll.unit() - 0.5f, roll(-20, 33));
                 // The two sides of a difference that is nothing, or all but nothing: a whole number times a depth, and what it equals.
                 if (i < 32 || roll.one_in(2)) continue;
                 numbers[i - 32] = static_cast<float>(roll(1, 511));
