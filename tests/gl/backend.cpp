@@ -50,7 +50,9 @@ template <typename Use> void for_each_failure(const std::vector<failure>& failur
 
 const std::vector<failure> programs_fail{{"BufferData", 0, "a buffer of"}, {"CreateProgram", 0, "no name for a program"}};
 const std::vector<failure> receiving_fails{{"TexImage2D", 0, "GL_OUT_OF_MEMORY"},
+                                           {"TexSubImage2D", 0, "a map's texels: GL_OUT_OF_MEMORY"},
                                            {"TexImage2D", 1, "RGBA32F: GL_OUT_OF_MEMORY"},
+                                           {"TexSubImage2D", 1, "uploading receivers: GL_OUT_OF_MEMORY"},
                                            {"TexImage2D", 2, "RG32UI: GL_OUT_OF_MEMORY"},
                                            {"GenFramebuffers", 0, "no name for a framebuffer"},
                                            {"ReadPixels", 0, "receiving on the host's behalf: GL_OUT_OF_MEMORY"}};

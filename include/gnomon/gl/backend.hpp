@@ -187,11 +187,13 @@ template <state_policy Policy> class backend_of {
         const auto map = make_texture(context_, format_of<Texel>, map_size);
         if (!map) return map.error();
         write_texels<Texel>(context_, texels.view());
+        if (gl::problem why = context_.check("uploading a map's texels")) return why; // the next texture is made after old errors
         const auto where = make_texture(context_, rgba32f_format, lines);
         if (!where) return where.error();
         for (int y = 0; y < lines.height; ++y)
             context_.gl->TexSubImage2D(enums::texture_2d, 0, 0, y, lines.width, 1, enums::rgba, enums::type_float,
                                        &receivers(0, y));
+        if (gl::problem why = context_.check("uploading receivers")) return why;
         const auto made = make_texture(context_, rg32ui_format, lines);
         if (!made) return made.error();
         const auto into = make_framebuffer(context_, {made->name()});
