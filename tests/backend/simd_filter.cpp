@@ -109,14 +109,17 @@ TEST_CASE(
     dice roll(407);
     const auto bytes = test::noise<rg8>(roll, {300, 9}, 3);
     const auto words = test::noise<gnomon::rg16>(roll, {300, 9}, 3);
+    const auto papers = test::noise<test::paper16>(roll, {70, 9}, 3); // whose clear depth beside the map is all of the bits
     for_each_isa([&]<typename Isa>() {
         const image_view<const rg8> of_bytes = bytes.view();
         const image_view<const gnomon::rg16> of_words = words.view();
+        const image_view<const test::paper16> of_papers = papers.view();
         CHECK(differing<Isa, tent<1>>(of_bytes, whole(bytes.size())) == 0); // 128 is no signed byte
         CHECK(differing<Isa, gnomon::fast<gaussian<32>>>(of_bytes, whole(bytes.size())) == 0);
         CHECK(differing<Isa, gnomon::fast<tent<1>>>(of_words, whole(words.size())) == 0);
         CHECK(differing<Isa, gnomon::fast<binomial<17>>>(of_words, whole(words.size())) == 0);
         CHECK(differing<Isa, box<109>>(of_words, whole(words.size())) == 0);
+        CHECK(differing<Isa, gnomon::fast<binomial<4>>>(of_papers, whole(papers.size())) == 0);
     });
 }
 
