@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -176,9 +177,11 @@ TEST_CASE("an empty frame after an empty frame calls no function of GL, nor does
     map.bound([](const gl::map_targets&) { FAIL_CHECK("bounds the shadow of nothing"); });
     map.filter();
     CHECK(b.fake.calls.empty());
+    const std::size_t textures = b.fake.objects["texture"].size();
     for (const gnomon::map_size size : {gnomon::map_size{0, 64}, {64, 0}, {-3, -3}}) {
         map_of<gnomon::rgb8> none(size, gl::backend(b.context));
         CHECK(none.problem().sentence == "");
+        CHECK(b.fake.objects["texture"].size() == textures); // of no texels there is nothing to own
         b.fake.calls.clear();
         CHECK(frame(none) <= 0.0f);
         CHECK(b.fake.calls.empty());
