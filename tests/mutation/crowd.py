@@ -72,6 +72,8 @@ class Crowd:
         """(answer, what said so) of the tests near the header; of those of many sets of lanes only one set. And the tests that have
         called the mutant and passed."""
         number, passed = self.number[mutant.text], set()
+        if number not in self.together.inside:
+            return (SURVIVED, ""), passed
         tests = sorted((t for t in self.tree.concerned(self.header) if t.is_near(self.header) and t.has_many_isas == bool(t.isa)),
                        key=lambda t: (t.name, t.isa or ""))
         for own in (True, False): # the others are compiled if there is need

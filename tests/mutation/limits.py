@@ -9,9 +9,14 @@ OPTIONS = ("-aa=1", "-nc") # of doctest: the first check that fails says enough
 
 
 def limited(seconds, command, memory="unlimited", **more):
-    """Runs a command under a limit of processor time, so that a busy machine does not count as an endless loop; and of memory in kB."""
+    """Runs a command under a limit of processor time, so that a busy machine does not count as an endless loop; and of memory in kB.
+    One that waits for ever, as for a lock that it held when it died, is stopped by the clock, and counts as one without end."""
     shell = 'ulimit -S -t "$0"; ulimit -S -v "$1"; shift; exec "$@"'
-    return subprocess.run(["sh", "-c", shell, str(int(seconds) + 1), memory, *map(str, command)], capture_output=True, text=True, errors="replace", **more)
+    command = ["sh", "-c", shell, str(int(seconds) + 1), memory, *map(str, command)]
+    try:
+        return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=120 + 20 * seconds, **more)
+    except subprocess.TimeoutExpired:
+        return subprocess.CompletedProcess(command, -signal.SIGXCPU, "", "CPU time limit")
 
 
 def processor_time():
