@@ -357,5 +357,17 @@ TEST_CASE("a processor has the lanes whose every bit it shows, and whose registe
     for (const int n : {16, 17, 30, 31}) CHECK(without(&cpu_answers::ebx_of_7, n) == cpu_level::avx2);
     CHECK(without(&cpu_answers::ecx_of_7, 11) == cpu_level::avx2);
     for (const int n : {5, 6, 7}) CHECK(without(&cpu_answers::kept, n) == cpu_level::avx2);
+    CHECK(without(&cpu_answers::kept, 0) == cpu_level::avx512); // that of x87 is nothing to lanes
     CHECK(gnomon::best_lanes() == gnomon::detail::ask_cpu());
 }
+
+#if GNOMON_X86 && defined(__GNUC__)
+TEST_CASE("this processor has the lanes that the compiler's own library finds in it") {
+    __builtin_cpu_init();
+    const auto both = [](bool a, bool b) { return a && b; };
+    const bool avx2 = both(__builtin_cpu_supports("avx2"), __builtin_cpu_supports("fma"));
+    const bool words = both(__builtin_cpu_supports("avx512bw"), __builtin_cpu_supports("avx512vl"));
+    const bool avx512 = both(words, both(__builtin_cpu_supports("avx512dq"), __builtin_cpu_supports("avx512vnni")));
+    CHECK(gnomon::best_lanes() == (both(avx2, avx512) ? cpu_level::avx512 : avx2 ? cpu_level::avx2 : cpu_level::sse2));
+}
+#endif
