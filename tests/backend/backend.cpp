@@ -157,8 +157,8 @@ TEST_CASE("what lanes know is left to the lanes that are named") {
     loads = 0;
     run.filter_region(casters.view(), soft.view(), whole(soft.size()), scratch);
     CHECK(std::exchange(loads, 0) > 0);
-    run.receive(gnomon::image_view<const rg8>(soft.view()).row_span(0), strided_span<const float>(z),
-                strided_span<float>(intensity), rule{});
+    run.receive(image_view<const rg8>(soft.view()).row_span(0), strided_span<const float>(z), strided_span<float>(intensity),
+                rule{});
     CHECK(std::exchange(loads, 0) > 0);
     run.receive(image_view<const rg8>(soft.view()), strided_span<const float>(at), strided_span<const float>(at),
                 strided_span<const float>(z), strided_span<float>(intensity), rule{});

@@ -151,8 +151,8 @@ class Together:
 
     def write(self):
         """The text; the numbers of the mutants that each line is there for are in self.owners from then on."""
-        self.lines, self.owners, self.members = [""], collections.defaultdict(set), collections.defaultdict(list)
-        self.variants = set()
+        self.lines, self.variants = [""], set()
+        self.owners, self.members = collections.defaultdict(set), collections.defaultdict(list)
         for number, site in self.inside.items():
             self.members[site].append(number)
         self.put(AWAKE)
