@@ -1,6 +1,6 @@
 """Breaks include/gnomon one small piece at a time; each time some test must turn red.
 
-A mutant is a header with one change. The tests whose includes reach that header are compiled with all of its mutants in them, which
+A mutant is a header with one change. The tests whose includes reach that header are compiled with many of its mutants in them, which
 sleep but for one (together.py, crowd.py), and their cases are run, the likeliest first, until one fails: that takes most mutants half a
 second. What cannot sleep, as a constant, is compiled by itself, one test a program; a test of many sets of lanes is asked about one of
 them before. What survives them all must also survive the files that must not compile, and the header's own tests under sanitizers.
@@ -23,7 +23,7 @@ import threading
 import time
 
 import mutants
-from crowd import Crowd
+from crowd import MANY, Crowd
 from limits import FOUND_BY_CLOCK, FOUND_BY_COMPILER, FOUND_BY_TEST, OPTIONS, SURVIVED, heard, limited, processor_time
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
@@ -96,11 +96,14 @@ class Tree:
     def concerned(self, header):
         return {t for t in self.sources if header in t.reaches and t.isa in (None, ONE_ISA.get(header, ANY_ISA))}
 
-    def crowd(self, header):
+    def crowd(self, header, mutant):
+        """The one that a mutant is in."""
         with self.lock:
             if header not in self.crowds:
-                self.crowds[header] = Crowd(self, header)
-            return self.crowds[header]
+                members = mutants.mutants_of(self.text[header])
+                crowds = [Crowd(self, header, members[k:k + MANY]) for k in range(0, len(members), MANY)]
+                self.crowds[header] = {text: crowd for crowd in crowds for text in crowd.number}
+            return self.crowds[header][mutant.text]
 
     def own_headers(self, path):
         return {name for quote, name in INCLUDE.findall(path.read_text()) if name in self.headers}
@@ -228,7 +231,7 @@ def ask_each(tree, header, tests, overlay, work, passed):
 
 def judge(tree, header, mutant, near):
     """The answer for one mutant: the first test that turns red, or that none does."""
-    answer, passed = ((SURVIVED, ""), set()) if tree.alone else tree.crowd(header).ask(mutant)
+    answer, passed = ((SURVIVED, ""), set()) if tree.alone else tree.crowd(header, mutant).ask(mutant)
     if answer[0] != SURVIVED:
         return answer
     with tempfile.TemporaryDirectory(dir=tree.build) as folder:
@@ -312,7 +315,7 @@ def run(tree, given):
         old = kept.get((found_key, name)) or kept.get((survived_key, name)) or (known and kept.get((survivor_key(header, given.near), name)))
         start = time.monotonic()
         if not old and given.quick:
-            (answer, said), called = tree.crowd(header).ask(mutant)
+            (answer, said), called = tree.crowd(header, mutant).ask(mutant)
             answer = LEFT_OUT if answer == SURVIVED and not called else answer
         else:
             answer, said = old[:2] if old else judge(tree, header, mutant, near)

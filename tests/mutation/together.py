@@ -1,7 +1,8 @@
 """All mutants of a header in one text, each asleep until it is called by its number: one compile for hundreds instead of one for each.
 
-A statement that mutants change becomes a choice between its variants, and so do the value that a variable begins with and a condition.
-What does not run (a signature, a constant, a template's argument) must be compiled alone, and so must what the compiler refuses here.
+A statement that mutants change becomes a choice between its variants, and so do the value that a variable begins with and a condition;
+of what is declared in a block and computed by the compiler there, all that follows it in the block is the choice. What does not run (a
+signature, a constant of a class, a template's argument) must be compiled alone, and so must what the compiler refuses here.
 While the compiler computes, every mutant sleeps. So one that is found here would be found alone, and one that is not may still be."""
 import collections
 import dataclasses
@@ -28,6 +29,7 @@ VALUE = "(", "GNOMON_AWAKE(%d) ? (%s) :", ("(", ")"), ")"
 CONDITION = "(", "GNOMON_AWAKE(%d) ? static_cast<bool>(%s) :", ("static_cast<bool>(", ")"), ")"
 STEP = "(", "GNOMON_AWAKE(%d) ? static_cast<void>(%s) :", ("static_cast<void>(", ")"), ")"
 BODY_AFTER = {")", "const", "noexcept", "override", "mutable", "else", "do"}
+COMPUTED = {"constexpr", "template", "using", "concept", "enum", "static_assert"}
 NO_CHOICE = {"case", "default", "public", "private", "else", "template", "struct", "using", "static_assert", ";"}
 
 
@@ -58,14 +60,26 @@ class Parser:
     """Finds every site of a header. Like mutants.py it reads tokens, not C++: the compiler has the last word."""
 
     def __init__(self, tokens):
-        self.tokens, self.sites, i = tokens, [], 0
+        self.tokens, self.sites, i, begin = tokens, [], 0, 0
         while i < len(tokens):
-            i = self.block(i) if tokens[i].text == "{" and is_body(tokens, i) else i + 1
+            text, before = tokens[i].text, tokens[i - 1].text
+            if text == "{" and is_body(tokens, i):
+                i = begin = self.block(i)
+            elif text == ":" and before in (")", "noexcept"):
+                i = begin = self.initialisers(i + 1)
+            else:
+                if text == "=" and before != "operator" and not COMPUTED & {t.text for t in tokens[begin:i]}:
+                    self.add(VALUE, *split(tokens, i + 1, len(tokens), ",")[0]) # of a member, or of a parameter
+                i += 1
+                begin = i if text in (";", "{", "}") else begin
 
-    def add(self, form, begin, end):
+    def place(self, form, begin, end):
         if begin < end:
             self.sites.append(Site(self.tokens[begin].start, self.tokens[end - 1].end, form))
-            self.lambdas(begin, end)
+
+    def add(self, form, begin, end):
+        self.place(form, begin, end)
+        self.lambdas(begin, end)
 
     def lambdas(self, begin, end):
         i = begin
@@ -73,34 +87,53 @@ class Parser:
             opens = self.tokens[i].text == "{" and (self.tokens[i - 1].text == "]" or is_body(self.tokens, i))
             i = self.block(i) if opens else i + 1
 
+    def initialisers(self, i):
+        """Reads those of a constructor, value by value, and its body."""
+        while self.tokens[i].kind == "word" and self.tokens[i + 1].text in ("(", "{"):
+            end = closing(self.tokens, i + 1)
+            for part in split(self.tokens, i + 2, end, ","):
+                self.add(VALUE, *part)
+            i = end + 1 + (self.tokens[end + 1].text == ",")
+        return self.block(i) if self.tokens[i].text == "{" else i
+
     def block(self, i):
         end = closing(self.tokens, i)
         i += 1
         while i < end:
-            i = self.statement(i, end)
+            after = self.statement(i, end)
+            self.place(STATEMENT, i, end) # what is declared here, with all that it is for
+            i = after
         return end + 1
 
     def statement(self, i, limit):
         """Reads the statement that begins at i; where the next one does."""
-        text = self.tokens[i].text
+        tokens, first, text = self.tokens, i, self.tokens[i].text
+        if text == "GNOMON_UNROLL":
+            i = closing(tokens, i + 1) + 1
+            text = tokens[i].text
         if text == "{":
             return self.block(i)
-        if text == "do":
-            return self.statement(i + 1, limit)
-        if text == "GNOMON_UNROLL":
-            return self.statement(closing(self.tokens, i + 1) + 1, limit)
-        if text in ("if", "while", "for", "switch"):
-            return self.control(i, limit)
-        end = split(self.tokens, i, limit)[0][1]
-        if end >= limit or self.tokens[end].text != ";" or text in NO_CHOICE:
+        if text in ("do", "if", "while", "for", "switch"):
+            end = self.loop(i, limit) if text == "do" else self.control(i, limit)
+            self.place(STATEMENT, first, end)
+            return end
+        end = split(tokens, i, limit)[0][1]
+        if end >= limit or tokens[end].text != ";" or text in NO_CHOICE:
             return end + 1
-        if text in ("return", "break", "continue") or is_expression(self.tokens, i, end):
+        if text in ("return", "break", "continue") or is_expression(tokens, i, end):
             self.add(STATEMENT, i, end + 1)
-        elif "constexpr" in {t.text for t in self.tokens[i:min(i + 4, end)]}:
+        elif "constexpr" in {t.text for t in tokens[i:min(i + 4, end)]}:
             self.lambdas(i, end)
         else:
             self.declaration(i, end)
         return end + 1
+
+    def loop(self, i, limit):
+        """Of do and its while."""
+        i = self.statement(i + 1, limit)
+        end = closing(self.tokens, i + 1)
+        self.add(CONDITION, i + 2, end)
+        return end + 2
 
     def control(self, i, limit):
         tokens, text = self.tokens, self.tokens[i].text
@@ -140,14 +173,18 @@ class Together:
     def __init__(self, text, mutants):
         self.text, self.mutants, self.inside = text, dict(enumerate(mutants, 1)), {}
         sites = Parser(tokens_of(text)).sites
+        self.wider = {}
         for number, m in self.mutants.items():
             around = [site for site in sites if site.start <= m.start and m.end <= site.end]
             if around:
-                self.inside[number] = min(around, key=lambda site: site.end - site.start)
+                self.inside[number], *self.wider[number] = sorted(around, key=lambda site: site.end - site.start)[:2]
 
     def drop(self, numbers):
-        for number in numbers:
-            self.inside.pop(number, None)
+        """Each of them gets a wider site, once."""
+        for number in numbers & self.inside.keys():
+            wider = self.wider.pop(number, [])
+            self.inside.pop(number)
+            self.inside.update((number, site) for site in wider)
 
     def write(self):
         """The text; the numbers of the mutants that each line is there for are in self.owners from then on."""
