@@ -5,7 +5,7 @@ import shutil
 import threading
 import time
 
-from limits import OPTIONS, SURVIVED, heard, limited
+from limits import OPTIONS, SURVIVED, UNDER_ASAN, heard, limited
 from together import Together
 
 SLOW = 0.1 # seconds that a test case takes to be run by itself, after the quicker ones
@@ -27,8 +27,8 @@ class Part:
     def run(self, number):
         """(answer, what said so, was the mutant called?)"""
         self.asked += 1
-        ran = limited(3 + 3 * self.seconds, [self.program.path, *OPTIONS, *self.options], MEMORY,
-                      env={**os.environ, "GNOMON_MUTANT": str(number)})
+        ran = limited(3 + 3 * self.seconds, [self.program.path, *OPTIONS, *self.options], self.program.memory,
+                      env={**os.environ, "ASAN_OPTIONS": UNDER_ASAN, "GNOMON_MUTANT": str(number)})
         answer, said = (SURVIVED, "") if self.options and ran.returncode == 0 else heard(ran, self.program.test.name)
         self.found += answer != SURVIVED
         return answer, said, "GNOMON_CALLED" in ran.stderr
@@ -37,12 +37,12 @@ class Part:
 class Program:
     """One test and the numbers of the mutants in it."""
 
-    def __init__(self, test, path):
-        self.test, self.path, self.numbers, self.parts = test, path, frozenset(), []
+    def __init__(self, test, path, memory):
+        self.test, self.path, self.memory, self.numbers, self.parts = test, path, memory, frozenset(), []
 
     def prove(self, numbers):
         """It must pass as long as all sleep, or it says what fails. The times are the measure from then on."""
-        ran = limited(600, [self.path, *OPTIONS, "-d=1"])
+        ran = limited(600, [self.path, *OPTIONS, "-d=1"], self.memory, env={**os.environ, "ASAN_OPTIONS": UNDER_ASAN})
         answer, said = heard(ran, self.test.name)
         if answer != SURVIVED:
             return f"it fails: {said}"
@@ -57,11 +57,13 @@ class Program:
 
 
 class Crowd:
-    """Some mutants of one header, and a program for each test near it, compiled when it is first asked."""
+    """Some mutants of one header, and a program for each test near it, compiled when it is first asked. With options, which are those
+    of sanitizers, only for the tests that are the header's own, if there are any."""
 
-    def __init__(self, tree, header, members):
-        self.tree, self.header, self.first = tree, header, members[0].line
-        self.overlay = tree.build / "together" / f"{header.replace('/', '_')}_{members[0].line}_{members[0].column}"
+    def __init__(self, tree, header, members, options):
+        self.tree, self.header, self.options = tree, header, options
+        self.name = f"{header}:{members[0].line}:{members[0].column}" + " sanitized" * bool(options)
+        self.overlay = tree.build / "together" / re.sub(r"\W", "_", self.name)
         shutil.rmtree(self.overlay, ignore_errors=True)
         (self.overlay / header).parent.mkdir(parents=True)
         self.number = {m.text: k for k, m in enumerate(members, 1)}
@@ -76,7 +78,8 @@ class Crowd:
             return (SURVIVED, ""), passed
         tests = sorted((t for t in self.tree.concerned(self.header) if t.is_near(self.header) and t.has_many_isas == bool(t.isa)),
                        key=lambda t: (t.name, t.isa or ""))
-        for own in (True, False): # the others are compiled if there is need
+        has_own = any(t.is_of(self.header) for t in tests)
+        for own in (True, False)[:1 if self.options and has_own else 2]: # the others are compiled if there is need
             todo = {part for t in tests if t.is_of(self.header) == own for part in self.program(t).parts}
             while todo:
                 part = self.last if self.last in todo else max(todo, key=lambda part: part.promise(self.header))
@@ -95,16 +98,17 @@ class Crowd:
         with self.lock:
             if test not in self.programs:
                 began = time.monotonic()
-                program = self.programs[test] = Program(test, self.overlay / re.sub(r"\W", "_", f"{test.name} {test.isa or ''}".strip()))
+                program = self.programs[test] = Program(test, self.overlay / re.sub(r"\W", "_", f"{test.name} {test.isa or ''}".strip()),
+                                                                "unlimited" if self.options else MEMORY)
                 complaint = self.compile(program) or program.prove(self.together.inside)
                 said = f"not together, {complaint[-300:]}" if complaint else f"{len(program.numbers)} of {len(self.number)} mutants together"
-                print(f"{self.header}:{self.first} in {program.path.name}: {said}, {time.monotonic() - began:.0f} s", flush=True)
+                print(f"{self.name} in {program.path.name}: {said}, {time.monotonic() - began:.0f} s", flush=True)
             return self.programs[test]
 
     def compile(self, program):
         """Leaves out what the compiler refuses; says what is wrong if it refuses the rest too."""
         level = "-O0" if self.header.startswith("gnomon/gl/") else "-O1" # by whether compiling takes longer or running
-        compiler, linker = self.tree.flavour(level, *program.test.options)
+        compiler, linker = self.tree.flavour(level, *program.test.options, *self.options)
         command = [*compiler, "-ferror-limit=0", f"-I{self.overlay}", f"-I{self.tree.include}", "-c", program.test.path]
         blamed = True
         while blamed:

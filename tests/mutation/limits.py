@@ -6,6 +6,7 @@ import subprocess
 
 FOUND_BY_TEST, FOUND_BY_COMPILER, FOUND_BY_CLOCK, SURVIVED = "test", "compiler", "clock", "survived"
 OPTIONS = ("-aa=1", "-nc") # of doctest: the first check that fails says enough
+UNDER_ASAN = "detect_leaks=0:hard_rss_limit_mb=4000" # where ulimit would forbid the shadow
 
 
 def limited(seconds, command, memory="unlimited", **more):

@@ -24,7 +24,7 @@ import time
 
 import mutants
 from crowd import MANY, Crowd
-from limits import FOUND_BY_CLOCK, FOUND_BY_COMPILER, FOUND_BY_TEST, OPTIONS, SURVIVED, heard, limited, processor_time
+from limits import FOUND_BY_CLOCK, FOUND_BY_COMPILER, FOUND_BY_TEST, OPTIONS, SURVIVED, UNDER_ASAN, heard, limited, processor_time
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 SANITIZERS = ("-DNDEBUG", "-fsanitize=address,undefined", "-fno-sanitize-recover=all") # asserts have had their say
@@ -96,14 +96,23 @@ class Tree:
     def concerned(self, header):
         return {t for t in self.sources if header in t.reaches and t.isa in (None, ONE_ISA.get(header, ANY_ISA))}
 
-    def crowd(self, header, mutant):
+    def crowd(self, header, mutant, *options):
         """The one that a mutant is in."""
         with self.lock:
-            if header not in self.crowds:
+            if (header, options) not in self.crowds:
                 members = mutants.mutants_of(self.text[header])
-                crowds = [Crowd(self, header, members[k:k + MANY]) for k in range(0, len(members), MANY)]
-                self.crowds[header] = {text: crowd for crowd in crowds for text in crowd.number}
-            return self.crowds[header][mutant.text]
+                crowds = [Crowd(self, header, members[k:k + MANY], options) for k in range(0, len(members), MANY)]
+                self.crowds[header, options] = {text: crowd for crowd in crowds for text in crowd.number}
+            return self.crowds[header, options][mutant.text]
+
+    def ask_together(self, header, mutant):
+        """(answer, what said so) of the tests near the header, then under sanitizers; and for both the tests that called the mutant and
+        passed."""
+        answer, called = self.crowd(header, mutant).ask(mutant)
+        if answer[0] != SURVIVED or not called:
+            return answer, called, set()
+        (answer, said), sanitized = self.crowd(header, mutant, *SANITIZERS).ask(mutant)
+        return (answer, f"{said} (sanitizers)"), called, sanitized
 
     def own_headers(self, path):
         return {name for quote, name in INCLUDE.findall(path.read_text()) if name in self.headers}
@@ -161,7 +170,7 @@ def ask(tree, test, overlay, work, options=(), peek=False):
         raise RuntimeError(f"{test.name} was not compiled: {built.stderr[-2000:]}")
     allowed = 0 if peek else 2 + 2 * (test.seconds or 60) * (5 if options else 1)
     ran = limited(allowed, [program, *OPTIONS], "unlimited" if options else "4000000",
-                  env={**os.environ, "ASAN_OPTIONS": "detect_leaks=0:hard_rss_limit_mb=4000"})
+                  env={**os.environ, "ASAN_OPTIONS": UNDER_ASAN})
     answer, said = heard(ran, test.name)
     if answer == FOUND_BY_CLOCK and peek:
         return SURVIVED, ""
@@ -231,7 +240,7 @@ def ask_each(tree, header, tests, overlay, work, passed):
 
 def judge(tree, header, mutant, near):
     """The answer for one mutant: the first test that turns red, or that none does."""
-    answer, passed = ((SURVIVED, ""), set()) if tree.alone else tree.crowd(header, mutant).ask(mutant)
+    answer, passed, sanitized = ((SURVIVED, ""), set(), set()) if tree.alone else tree.ask_together(header, mutant)
     if answer[0] != SURVIVED:
         return answer
     with tempfile.TemporaryDirectory(dir=tree.build) as folder:
@@ -245,7 +254,8 @@ def judge(tree, header, mutant, near):
         if answer[0] != SURVIVED or near:
             return answer
         one_isa = [t for t in of_folder if t.has_many_isas == bool(t.isa)]
-        for test in [t for t in one_isa if t.is_of(header)] or one_isa:
+        own = [t for t in one_isa if t.is_of(header)]
+        for test in set(own or one_isa) - sanitized:
             answer = ask(tree, test, overlay, work, SANITIZERS)
             if answer[0] != SURVIVED:
                 return answer
@@ -315,7 +325,7 @@ def run(tree, given):
         old = kept.get((found_key, name)) or kept.get((survived_key, name)) or (known and kept.get((survivor_key(header, given.near), name)))
         start = time.monotonic()
         if not old and given.quick:
-            (answer, said), called = tree.crowd(header, mutant).ask(mutant)
+            (answer, said), called, _ = tree.ask_together(header, mutant)
             answer = LEFT_OUT if answer == SURVIVED and not called else answer
         else:
             answer, said = old[:2] if old else judge(tree, header, mutant, near)
