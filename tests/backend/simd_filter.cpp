@@ -156,6 +156,26 @@ TEST_CASE("the scratch of a map has room for whole rows of it, half rows of doub
     }
 }
 
+TEST_CASE("a strip is as wide as a row if there is room, fits if there is not, and is nothing without room for a texel") {
+    const auto check = []<typename Kernel, typename Texel>() {
+        using room = gnomon::on_any::filter_room<gnomon::on_any::filter_of<emulated<64>, Kernel, Texel>, Texel>;
+        constexpr int width = 21;
+        const auto bytes = [](int texels) { return room::bytes(texels * Texel::channels); };
+        CHECK(room::widest(bytes(1) - 1, width) == 0);
+        int most = 1; // so many texels would fit
+        for (std::size_t given = bytes(1); given <= bytes(width); ++given) {
+            while (most < width && bytes(most + 1) <= given) ++most;
+            CAPTURE(given);
+            const int made = room::widest(given, width);
+            CHECK(made % Texel::channels == 0);
+            CHECK(2 * made >= most * Texel::channels);
+            CHECK((most == width ? made == width * Texel::channels : made <= most * Texel::channels));
+        }
+    };
+    check.operator()<binomial<4>, rg8>();
+    check.operator()<gaussian<4>, gnomon::rgb32f>();
+}
+
 TEST_CASE("what is too large for the caches goes past them, whole registers where they are aligned, and is the same") {
     dice roll(405);
     image<gnomon::rg32f> map({2070, 1030}, gnomon::rg32f::clear());
