@@ -2,10 +2,7 @@
 // in rasterize_lanes.cpp; but a triangle that lanes wrongly left to the scalar code would have these texels too.
 #include <gnomon/geometry/rasterize_lanes.hpp>
 
-#include <gnomon/geometry/directional_light.hpp>
-#include <gnomon/geometry/spot_light.hpp>
-
-#include "../support/world_dice.hpp"
+#include "../support/any_light.hpp"
 
 #include <doctest/doctest.h>
 
@@ -22,20 +19,6 @@ namespace {
 constexpr extent map_size{600, 80}; // so that triangles have a row of a piece more or less, and a row more or less than few
 using setup = on_any::triangle_setup<emulated<48>>;
 using dice = test::world_dice;
-
-light_frame any_light(dice& roll, int i) {
-    if (i % 2 == 0) {
-        directional_light sun(roll.vector(1.0));
-        sun.add_caster(bounding_sphere{glm::dvec3(0), 6.0});
-        return sun.frame(map_size, 2);
-    }
-    return spot_light{.position = roll.vector(4.0),
-                      .direction = roll.vector(1.0),
-                      .outer_angle = roll(0.3, 1.2),
-                      .near_plane = roll(0.2, 2.0),
-                      .far_plane = roll(6.0, 20.0)}
-        .frame(map_size);
-}
 
 /// Which triangles were seen: each kind must have been.
 struct tally {
@@ -82,7 +65,7 @@ void check_one(const setup::batch& b, int k, const detail::raster_job& job, int 
     }
     const detail::depth_surface surface(triangle.corner, triangle.corner[0], *job.light);
     const detail::triangle_depth expected = surface.depth(), made = setup::depth_of(b, job, k);
-    CHECK(bit(b.plain) == (surface.area() != 0.0));
+    CHECK(bit(b.plain) == (std::abs(surface.area()) > 0.0));
     CHECK(b.area.lane[k] == surface.area());
     CHECK(made.inverse == expected.inverse);
     const double expected_numbers[] = {expected.near_w, expected.per_w, expected.x,       expected.y,       expected.a,
@@ -100,10 +83,12 @@ void check_one(const setup::batch& b, int k, const detail::raster_job& job, int 
     for (int row = 0; row < around.height(); ++row) {
         const auto [x0, x1] = runs[static_cast<std::size_t>(row)];
         const double begin = b.begin[row].lane[k], end = b.end[row].lane[k];
-        if (x0 == x1)
+        if (x0 == x1) {
             CHECK(begin >= end);
-        else
-            CHECK((begin == x0 - around.x0 && end == x1 - around.x0));
+        } else {
+            CHECK(begin == x0 - around.x0);
+            CHECK(end == x1 - around.x0);
+        }
         CHECK(b.on_row[row].lane[k] == expected.b * (around.y0 + row + 0.5 - expected.y) + expected.c);
     }
 }
@@ -113,7 +98,7 @@ TEST_CASE("lanes set up what the scalar rasteriser computes, and leave to it onl
     dice roll{std::mt19937_64(2024)};
     tally seen;
     for (int i = 0; i < 600; ++i) {
-        const light_frame light = any_light(roll, i);
+        const light_frame light = test::any_light(roll, i, map_size);
         std::vector<glm::vec3> positions;
         std::vector<std::uint32_t> indices;
         const double size = i % 7 == 0 ? std::exp(roll(0.0, 30.0)) : std::exp(roll(-6.0, 3.0));

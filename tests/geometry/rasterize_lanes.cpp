@@ -6,10 +6,10 @@
 #include <gnomon/geometry/spot_light.hpp>
 #include <gnomon/grid/depth_range.hpp>
 
+#include "../support/any_light.hpp"
 #include "../support/formats.hpp"
 #include "../support/images.hpp"
 #include "../support/lanes.hpp"
-#include "../support/world_dice.hpp"
 
 #include <doctest/doctest.h>
 
@@ -67,20 +67,6 @@ record draw(auto run, const triangle_mesh& mesh, const light_frame& light, texel
     return r;
 }
 
-light_frame any_light(dice& roll, int i) {
-    if (i % 2 == 0) {
-        directional_light sun(roll.vector(1.0));
-        sun.add_caster(bounding_sphere{glm::dvec3(0), 6.0});
-        return sun.frame(map_size, 2);
-    }
-    return spot_light{.position = roll.vector(4.0),
-                      .direction = roll.vector(1.0),
-                      .outer_angle = roll(0.3, 1.2),
-                      .near_plane = roll(0.2, 2.0),
-                      .far_plane = roll(6.0, 20.0)}
-        .frame(map_size);
-}
-
 /// Up to 40 triangles of one size, from a hundredth of a texel to the horizon; some cannot be drawn.
 mesh_data any_mesh(dice& roll, int i) {
     mesh_data m;
@@ -135,7 +121,7 @@ TEST_CASE("lanes draw what the scalar rasteriser draws, in its order and to the 
     dice roll{std::mt19937_64(31)};
     std::size_t texels = 0, spot = 0, partly = 0;
     for (int i = 0; i < 3000; ++i) {
-        const light_frame light = any_light(roll, i);
+        const light_frame light = test::any_light(roll, i, map_size);
         const mesh_data m = any_mesh(roll, i);
         const triangle_mesh mesh = m.mesh(any_model(roll, i));
         const faces side = i % 3 == 0 ? faces::both : i % 3 == 1 ? faces::lit_side : faces::dark_side;
@@ -161,7 +147,7 @@ TEST_CASE_TEMPLATE("without asserts, triangles for lanes that the processor has 
     dice roll{std::mt19937_64(39)};
     std::size_t texels = 0;
     for (int i = 0; i < 20; ++i) {
-        const light_frame light = any_light(roll, i);
+        const light_frame light = test::any_light(roll, i, map_size);
         const mesh_data m = any_mesh(roll, i);
         const record expected = draw(scalar{}, m.mesh(), light, everywhere, faces::both);
         CHECK(draw(simd<Isa>{}, m.mesh(), light, everywhere, faces::both) == expected);
@@ -176,7 +162,7 @@ TEST_CASE("lanes skip the triangles that a place for them does not touch, as the
     dice roll{std::mt19937_64(32)};
     std::size_t skipped = 0;
     for (int i = 0; i < 200; ++i) {
-        const light_frame light = any_light(roll, i);
+        const light_frame light = test::any_light(roll, i, map_size);
         const mesh_data m = any_mesh(roll, i);
         depth_tiles tiles(map_size, 8);
         tiles.mark({10, 20, 40, 50}, {0.0f, 1.0f});
@@ -200,7 +186,7 @@ TEST_CASE_TEMPLATE("lanes cast and bound as the scalar rasteriser does, whatever
     constexpr texel_rect inner{3, 1, 3 + map_size.width, 1 + map_size.height};
     int changed = 0;
     for (int i = 0; i < 60; ++i) {
-        const light_frame light = any_light(roll, i);
+        const light_frame light = test::any_light(roll, i, map_size);
         const mesh_data m = any_mesh(roll, i), ground = any_mesh(roll, i + 1);
         image<Texel> from(around, Texel::clear());
         if (i % 3 == 0) test::fill_with_bits(bits, from.view());
