@@ -111,11 +111,10 @@ TEST_CASE("lanes set up what the scalar rasteriser computes, and leave to it onl
             }
         }
         const triangle_mesh mesh{.positions = positions, .indices = indices};
-        const glm::dmat4 to_map = light.matrix() * mesh.model;
         detail::raster_job job{};
         job.mesh = &mesh;
         job.light = &light;
-        job.to_map = to_map;
+        job.to_map = light.matrix();
         job.perspective = light.perspective();
         job.divides = light.perspective();
         job.near_w = light.near_w();

@@ -1,15 +1,13 @@
 """Tests with many mutants of a header in them, of which a variable of the environment wakes up one: see together.py."""
-import os
 import re
 import shutil
 import threading
 import time
 
-from limits import OPTIONS, SURVIVED, UNDER_ASAN, heard, limited
+from limits import OPTIONS, SURVIVED, heard, limited, run_test
 from together import Together
 
 SLOW = 0.1 # seconds that a test case takes to be run by itself, after the quicker ones
-MEMORY = "4000000" # kB
 MANY = 64 # mutants in a crowd: of all that change one function of lanes, compiling takes four times as long as of these by turns
 
 
@@ -27,8 +25,8 @@ class Part:
     def run(self, number):
         """(answer, what said so, was the mutant called?)"""
         self.asked += 1
-        ran = limited(3 + 3 * self.seconds, [self.program.path, *OPTIONS, *self.options], self.program.memory,
-                      env={**os.environ, "ASAN_OPTIONS": UNDER_ASAN, "GNOMON_MUTANT": str(number)})
+        ran = run_test(3 + 3 * self.seconds, [self.program.path, *OPTIONS, *self.options], self.program.sanitized,
+                       GNOMON_MUTANT=str(number))
         answer, said = (SURVIVED, "") if self.options and ran.returncode == 0 else heard(ran, self.program.test.name)
         self.found += answer != SURVIVED
         return answer, said, "GNOMON_CALLED" in ran.stderr
@@ -37,12 +35,12 @@ class Part:
 class Program:
     """One test and the numbers of the mutants in it."""
 
-    def __init__(self, test, path, memory):
-        self.test, self.path, self.memory, self.numbers, self.parts = test, path, memory, frozenset(), []
+    def __init__(self, test, path, sanitized):
+        self.test, self.path, self.sanitized, self.numbers, self.parts = test, path, sanitized, frozenset(), []
 
     def prove(self, numbers):
         """It must pass as long as all sleep, or it says what fails. The times are the measure from then on."""
-        ran = limited(600, [self.path, *OPTIONS, "-d=1"], self.memory, env={**os.environ, "ASAN_OPTIONS": UNDER_ASAN})
+        ran = run_test(600, [self.path, *OPTIONS, "-d=1"], self.sanitized)
         answer, said = heard(ran, self.test.name)
         if answer != SURVIVED:
             return f"it fails: {said}"
@@ -76,11 +74,12 @@ class Crowd:
         number, passed = self.number[mutant.text], set()
         if number not in self.together.inside:
             return (SURVIVED, ""), passed
-        tests = sorted((t for t in self.tree.concerned(self.header) if t.is_near(self.header) and t.has_many_isas == bool(t.isa)),
-                       key=lambda t: (t.name, t.isa or ""))
-        has_own = any(t.is_of(self.header) for t in tests)
-        for own in (True, False)[:1 if self.options and has_own else 2]: # the others are compiled if there is need
-            todo = {part for t in tests if t.is_of(self.header) == own for part in self.program(t).parts}
+        near = sorted((t for t in self.tree.concerned(self.header) if t.is_near(self.header) and t.has_many_isas == bool(t.isa)),
+                      key=lambda t: (t.name, t.isa or ""))
+        own = [t for t in near if t.is_of(self.header)]
+        others = [] if self.options and own else [t for t in near if t not in own]
+        for tests in (own, others): # the others are compiled if there is need
+            todo = {part for t in tests for part in self.program(t).parts}
             while todo:
                 part = self.last if self.last in todo else max(todo, key=lambda part: part.promise(self.header))
                 todo.remove(part)
@@ -99,7 +98,7 @@ class Crowd:
             if test not in self.programs:
                 began = time.monotonic()
                 program = self.programs[test] = Program(test, self.overlay / re.sub(r"\W", "_", f"{test.name} {test.isa or ''}".strip()),
-                                                                "unlimited" if self.options else MEMORY)
+                                                                bool(self.options))
                 complaint = self.compile(program) or program.prove(self.together.inside)
                 said = f"not together, {complaint[-300:]}" if complaint else f"{len(program.numbers)} of {len(self.number)} mutants together"
                 print(f"{self.name} in {program.path.name}: {said}, {time.monotonic() - began:.0f} s", flush=True)

@@ -1,4 +1,5 @@
 """Runs compilers and tests within limits, and reads what a test said."""
+import os
 import re
 import resource
 import signal
@@ -6,7 +7,6 @@ import subprocess
 
 FOUND_BY_TEST, FOUND_BY_COMPILER, FOUND_BY_CLOCK, SURVIVED = "test", "compiler", "clock", "survived"
 OPTIONS = ("-aa=1", "-nc") # of doctest: the first check that fails says enough
-UNDER_ASAN = "detect_leaks=0:hard_rss_limit_mb=4000" # where ulimit would forbid the shadow
 
 
 def limited(seconds, command, memory="unlimited", **more):
@@ -18,6 +18,12 @@ def limited(seconds, command, memory="unlimited", **more):
         return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=120 + 20 * seconds, **more)
     except subprocess.TimeoutExpired:
         return subprocess.CompletedProcess(command, -signal.SIGXCPU, "", "CPU time limit")
+
+
+def run_test(seconds, command, sanitized, **environment):
+    """Runs a test in 4 GB: the sanitizers keep to that themselves, for the shell's limit would forbid them their shadow."""
+    return limited(seconds, command, "unlimited" if sanitized else "4000000",
+                   env={**os.environ, "ASAN_OPTIONS": "detect_leaks=0:hard_rss_limit_mb=4000", **environment})
 
 
 def processor_time():

@@ -12,7 +12,6 @@ import argparse
 import collections
 import concurrent.futures
 import hashlib
-import os
 import pathlib
 import random
 import re
@@ -24,7 +23,7 @@ import time
 
 import mutants
 from crowd import MANY, Crowd
-from limits import FOUND_BY_CLOCK, FOUND_BY_COMPILER, FOUND_BY_TEST, OPTIONS, SURVIVED, UNDER_ASAN, heard, limited, processor_time
+from limits import FOUND_BY_CLOCK, FOUND_BY_COMPILER, FOUND_BY_TEST, OPTIONS, SURVIVED, heard, limited, processor_time, run_test
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 SANITIZERS = ("-DNDEBUG", "-fsanitize=address,undefined", "-fno-sanitize-recover=all") # asserts have had their say
@@ -169,8 +168,7 @@ def ask(tree, test, overlay, work, options=(), peek=False):
     if built.returncode != 0: # not the mutant's fault: a full disk, no memory
         raise RuntimeError(f"{test.name} was not compiled: {built.stderr[-2000:]}")
     allowed = 0 if peek else 2 + 2 * (test.seconds or 60) * (5 if options else 1)
-    ran = limited(allowed, [program, *OPTIONS], "unlimited" if options else "4000000",
-                  env={**os.environ, "ASAN_OPTIONS": UNDER_ASAN})
+    ran = run_test(allowed, [program, *OPTIONS], bool(options))
     answer, said = heard(ran, test.name)
     if answer == FOUND_BY_CLOCK and peek:
         return SURVIVED, ""
@@ -391,7 +389,7 @@ def main(line=None):
     parser.add_argument("--list", action="store_true", help="say how many mutants there are, and run none")
     parser.add_argument("--explained", action="store_true", help="say what survivors.txt explains and nobody can make, and run none")
     parser.add_argument("--near", action="store_true", help="ask the tests of the header's own folder alone: quick, to work on these")
-    parser.add_argument("--quick", action="store_true", help="only what need not be compiled alone, by the tests of the header's own folder")
+    parser.add_argument("--quick", action="store_true", help="only what need not be compiled alone, by the tests of the header's own folder, then under sanitizers")
     parser.add_argument("--alone", action="store_true", help="compile each mutant by itself: slow, and says the same")
     parser.add_argument("--sample", type=int, metavar="N", help="only N mutants, drawn by --seed")
     parser.add_argument("--seed", type=int, default=1)

@@ -1,4 +1,4 @@
-"""All mutants of a header in one text, each asleep until it is called by its number: one compile for hundreds instead of one for each.
+"""Many mutants of a header in one text, each asleep until it is called by its number: one compile for hundreds instead of one for each.
 
 A statement that mutants change becomes a choice between its variants, and so do the value that a variable begins with and a condition;
 of what is declared in a block and computed by the compiler there, all that follows it in the block is the choice. What does not run (a
