@@ -7,7 +7,8 @@ them before. What survives them all must also survive the files that must not co
 Then it has to stand in survivors.txt with a reason; of what stands there only the header's own folder is asked, which is soon told.
 
 Answers are kept in build/mutation/results.tsv, so an interrupted run goes on: one that was found counts until its header changes,
-a survivor until a test that reaches it does. Remove the file to begin anew."""
+a survivor until a test that reaches it does. Remove the file to begin anew. A header of which every mutant is found or explained is
+entered in whole.txt, and asked about again only by name, or once it has changed."""
 import argparse
 import collections
 import concurrent.futures
@@ -302,6 +303,26 @@ class Explained:
         return complaints
 
 
+class Whole:
+    """whole.txt: a line `header digest mutants` for each header of which every mutant was found or is explained, as it stood then."""
+
+    def __init__(self, tree):
+        self.tree, self.path = tree, tree.tests / "mutation" / "whole.txt"
+        lines = self.path.read_text().splitlines() if self.path.exists() else []
+        self.note = [line for line in lines if line.startswith("#")]
+        self.entries = {line.split()[0]: line for line in lines if line and not line.startswith("#")}
+
+    def line(self, header):
+        return f"{header} {digest(self.tree.text[header])} {len(mutants.mutants_of(self.tree.text[header]))}"
+
+    def __contains__(self, header):
+        return header in self.entries and self.entries[header] == self.line(header)
+
+    def enter(self, headers):
+        self.entries = {h: line for h, line in self.entries.items() if h in self.tree.headers} | {h: self.line(h) for h in headers}
+        self.path.write_text("".join(line + "\n" for line in [*self.note, *(self.entries[h] for h in sorted(self.entries))]))
+
+
 def run(tree, given):
     wanted = chosen(tree, given)
     kept, log = {}, tree.build / "results.tsv"
@@ -324,7 +345,7 @@ def run(tree, given):
         start = time.monotonic()
         if not old and given.quick:
             (answer, said), called, _ = tree.ask_together(header, mutant)
-            answer = LEFT_OUT if answer == SURVIVED and not called else answer
+            answer = LEFT_OUT if answer == SURVIVED and not called and not known else answer
         else:
             answer, said = old[:2] if old else judge(tree, header, mutant, near)
         seconds = old[2] if old else time.monotonic() - start
@@ -339,7 +360,7 @@ def run(tree, given):
             row[("explained" if known else "unexplained") if answer == SURVIVED else answer] += 1
             if answer == SURVIVED and not known:
                 print(f"SURVIVED {header}:{mutant.line}:{mutant.column}\n- {mutant.before}\n+ {mutant.after}", flush=True)
-            if given.verbose and answer not in (SURVIVED, LEFT_OUT):
+            if given.verbose and answer != SURVIVED:
                 print(f"{header}:{mutant.line}:{mutant.column} {answer} {said} {seconds:.1f} s: {mutant.after}", flush=True)
             state["done"] += 1
             state["new"] += not old
@@ -352,8 +373,10 @@ def run(tree, given):
         for _ in pool.map(one, wanted): # raises what a job raised
             pass
 
-    complete = {h for h in rows if not given.quick and sum(1 for w in wanted if w[0] == h) == len(mutants.mutants_of(tree.text[h]))}
-    stale = explained.stale(tree, answers, complete)
+    asked = {h for h in rows if len({m.text for there, m in wanted if there == h}) == len(mutants.mutants_of(tree.text[h]))}
+    stale = explained.stale(tree, answers, set() if given.quick else asked)
+    if given.enter:
+        Whole(tree).enter(h for h in asked if not rows[h]["unexplained"] and not rows[h][LEFT_OUT])
     print(f"\n{'':42}{'test':>7}{'compiler':>9}{'clock':>7}{'survived':>9}{'explained':>10}{'left out':>10}{'s each':>8}")
     lines = []
     for header, row in sorted(rows.items()):
@@ -377,6 +400,11 @@ def chosen(tree, given):
         for h in [h for h in here if h in ELSEWHERE]:
             print(f"left out: {h}: {ELSEWHERE[h]}", flush=True)
             here.remove(h)
+        if not given.only:
+            known = Whole(tree)
+            whole = [h for h in here if h in known]
+            print(f"asked in full as they stand: {len(whole)} headers, see tests/mutation/whole.txt; their names ask again", flush=True)
+            here = [h for h in here if h not in whole]
         wanted += [(h, m) for h in here for m in mutants.mutants_of(tree.text[h]) if line is None or m.line == int(line)]
     if given.sample:
         wanted = random.Random(given.seed).sample(wanted, min(given.sample, len(wanted)))
@@ -391,6 +419,7 @@ def main(line=None):
     parser.add_argument("--near", action="store_true", help="ask the tests of the header's own folder alone: quick, to work on these")
     parser.add_argument("--quick", action="store_true", help="only what need not be compiled alone, by the tests of the header's own folder, then under sanitizers")
     parser.add_argument("--alone", action="store_true", help="compile each mutant by itself: slow, and says the same")
+    parser.add_argument("--enter", action="store_true", help="enter in whole.txt the headers of which every mutant is found or explained")
     parser.add_argument("--sample", type=int, metavar="N", help="only N mutants, drawn by --seed")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1, metavar="N")

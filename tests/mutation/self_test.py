@@ -112,6 +112,15 @@ def main():
                "alone the same mutants are found as together")
         expect(run(SURVIVORS) == 0, "explained survivors pass")
         expect(len(log.read_text().splitlines()) == len(answers), "another run asks nothing again")
+        whole = root / "tests/mutation/whole.txt"
+        run(options=["--enter"])
+        expect(not whole.read_text(), "a header with unexplained survivors is not entered as whole")
+        run(SURVIVORS, options=["--enter"])
+        entered = whole.read_text()
+        log.unlink()
+        expect(run(SURVIVORS) == 0 and not log.exists(), "nothing is asked about a header that was entered as whole")
+        whole.write_text(entered.replace(" ", " 0", 1))
+        expect(run(SURVIVORS) == 0 and log.exists(), "but it is once it has changed")
         found = "- constexpr int twice(int a) { return a * 2; }\n+ constexpr int twice(int a) { return a / 2; }\n"
         expect(run(SURVIVORS, f"gnomon/small.hpp: it survives no more.\n{found}") == 1, "an explanation fails once a test finds the mutant")
         expect(run(SURVIVORS, "gnomon/small.hpp: gone.\n- int gone() { return 1; }\n+ int gone() { return 2; }\n") == 1,
