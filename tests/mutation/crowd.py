@@ -8,7 +8,13 @@ from limits import OPTIONS, SURVIVED, heard, limited, run_test
 from together import Together
 
 SLOW = 0.1 # seconds that a test case takes to be run by itself, after the quicker ones
-MANY = 64 # mutants in a crowd: of all that change one function of lanes, compiling takes four times as long as of these by turns
+# Mutants in a crowd: of all that change one function of lanes, the optimiser takes four times as long as of these by turns.
+MANY = {"-O0": 256, "-O1": 64}
+
+
+def level_of(header):
+    """By whether compiling its tests takes longer or running them."""
+    return "-O0" if header.startswith("gnomon/gl/") else "-O1"
 
 
 class Part:
@@ -56,7 +62,7 @@ class Program:
 
 class Crowd:
     """Some mutants of one header, and a program for each test near it, compiled when it is first asked. With options, which are those
-    of sanitizers, only for the tests that are the header's own, if there are any."""
+    of sanitizers, only for the tests that are the header's own, or if there are none, for the shortest that calls the mutant."""
 
     def __init__(self, tree, header, members, options):
         self.tree, self.header, self.options = tree, header, options
@@ -68,16 +74,18 @@ class Crowd:
         self.together = Together(tree.text[header], members)
         self.programs, self.last, self.lock = {}, None, threading.Lock()
 
-    def ask(self, mutant):
+    def ask(self, mutant, callers=()):
         """(answer, what said so) of the tests near the header; of those of many sets of lanes only one set. And the tests that have
-        called the mutant and passed."""
+        called the mutant and passed. Callers are some that are known to."""
         number, passed = self.number[mutant.text], set()
         if number not in self.together.inside:
             return (SURVIVED, ""), passed
         near = sorted((t for t in self.tree.concerned(self.header) if t.is_near(self.header) and t.has_many_isas == bool(t.isa)),
                       key=lambda t: (t.name, t.isa or ""))
         own = [t for t in near if t.is_of(self.header)]
-        others = [] if self.options and own else [t for t in near if t not in own]
+        others = [t for t in near if t not in own]
+        if self.options:
+            others = [] if own else sorted(callers, key=lambda t: t.path.stat().st_size)[:1]
         for tests in (own, others): # the others are compiled if there is need
             todo = {part for t in tests for part in self.program(t).parts}
             while todo:
@@ -106,8 +114,7 @@ class Crowd:
 
     def compile(self, program):
         """Leaves out what the compiler refuses; says what is wrong if it refuses the rest too."""
-        level = "-O0" if self.header.startswith("gnomon/gl/") else "-O1" # by whether compiling takes longer or running
-        compiler, linker = self.tree.flavour(level, *program.test.options, *self.options)
+        compiler, linker = self.tree.flavour(level_of(self.header), *program.test.options, *self.options)
         command = [*compiler, "-ferror-limit=0", f"-I{self.overlay}", f"-I{self.tree.include}", "-c", program.test.path]
         blamed = True
         while blamed:

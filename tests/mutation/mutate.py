@@ -23,7 +23,7 @@ import threading
 import time
 
 import mutants
-from crowd import MANY, Crowd
+from crowd import MANY, Crowd, level_of
 from limits import FOUND_BY_CLOCK, FOUND_BY_COMPILER, FOUND_BY_TEST, OPTIONS, SURVIVED, heard, limited, processor_time, run_test
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
@@ -101,7 +101,8 @@ class Tree:
         with self.lock:
             if (header, options) not in self.crowds:
                 members = mutants.mutants_of(self.text[header])
-                crowds = [Crowd(self, header, members[k:k + MANY], options) for k in range(0, len(members), MANY)]
+                many = MANY[level_of(header)]
+                crowds = [Crowd(self, header, members[k:k + many], options) for k in range(0, len(members), many)]
                 self.crowds[header, options] = {text: crowd for crowd in crowds for text in crowd.number}
             return self.crowds[header, options][mutant.text]
 
@@ -111,7 +112,7 @@ class Tree:
         answer, called = self.crowd(header, mutant).ask(mutant)
         if answer[0] != SURVIVED or not called:
             return answer, called, set()
-        (answer, said), sanitized = self.crowd(header, mutant, *SANITIZERS).ask(mutant)
+        (answer, said), sanitized = self.crowd(header, mutant, *SANITIZERS).ask(mutant, called)
         return (answer, f"{said} (sanitizers)"), called, sanitized
 
     def own_headers(self, path):
