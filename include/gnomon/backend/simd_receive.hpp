@@ -36,6 +36,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     static constexpr bool whole_codes = channel_type::whole_codes;
 
     floats depth_less, depth_share, mask_more, mask_share, nearer; ///< the bias
+    floats before;                                                 ///< a depth in codes there, once moved, is lit
     floats least_mask;                                             ///< what float decides of
     bool exact_zero;                                               ///< e = m may be, and a depth that is next to nothing tell
     const rule* by_rule;
@@ -49,6 +50,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                 Isa::repeat(static_cast<float>(steps.mask_more)),
                 Isa::repeat(static_cast<float>(steps.mask_share)),
                 Isa::repeat(moved),
+                Isa::repeat(greater(0.0f, -moved)),
                 Isa::repeat(whole_codes ? 0.0f : (moved > 1.0f && std::same_as<Depth, float> ? nothing : 0x1p-50f)),
                 r.caster.towards != bias_towards::light || r.caster.roundings < 1,
                 &r};
@@ -94,15 +96,14 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     /// within m/16 of nothing the sum says nothing.
     GNOMON_LANES bool decided_sums(const decision& by, const floats& e, const floats& m, const masks& there,
                                    const std::uint16_t* depths, masks& shadowed) noexcept {
-        const floats zero = Isa::repeat(0.0f), last = Isa::repeat(static_cast<float>(depth16::last));
-        const floats code = Isa::template codes_of<unorm16, 1>(depths, 0), z = Isa::subtract(code, by.nearer);
+        const floats last = Isa::repeat(static_cast<float>(depth16::last));
+        const floats z = Isa::subtract(Isa::template codes_of<unorm16, 1>(depths, 0), by.nearer);
         const floats sum = Isa::add_product(Isa::multiply(Isa::subtract(e, m), last), m, z),
                      doubt = Isa::multiply(m, Isa::repeat(0.0625f));
-        const masks asked = Isa::both(there, Isa::both(Isa::greater(code, zero), Isa::greater(z, zero)));
-        shadowed = Isa::both(asked, Isa::greater(sum, doubt));
-        const masks near_nothing = Isa::both(Isa::not_greater(sum, doubt), Isa::not_greater(Isa::subtract(zero, doubt), sum));
-        return !Isa::any(Isa::both(asked, near_nothing)) && !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) &&
-               !Isa::any(Isa::both(asked, Isa::greater(z, last)));
+        const masks asked = Isa::both(there, Isa::greater(z, by.before));
+        shadowed = Isa::both(asked, Isa::not_greater(Isa::subtract(Isa::repeat(0.0f), doubt), sum));
+        return !Isa::any(Isa::both(shadowed, Isa::not_greater(sum, doubt))) &&
+               !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) && !Isa::any(Isa::both(asked, Isa::greater(z, last)));
     }
 
     GNOMON_LANES_VOID void store(Intensity* to, const masks& shadowed, const floats& darkness) noexcept {
