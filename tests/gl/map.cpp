@@ -221,8 +221,13 @@ TEST_CASE("more rectangles than fit into one draw take two") {
     b.fake.calls.clear();
     for (int i = 0; i < gl::rectangle_list::capacity + 1; ++i) map.cast({i % 60, i / 60, i % 60 + 1, i / 60 + 1}, 0.5f);
     CHECK(b.fake.calls["DrawArraysInstanced"] == 1); // there is no room for the last
-    static_cast<void>(map.caster_framebuffer());     // who asks for it finds all in it
+    CHECK(map.caster_framebuffer() == map.targets().into_casters); // who asks for it finds all in it
     CHECK(b.fake.calls["DrawArraysInstanced"] == 2);
+    map.cast({0, 0, 1, 1}, 0.5f);
+    map.clear();
+    b.fake.calls.clear();
+    static_cast<void>(map.caster_framebuffer()); // what was forgotten before it was drawn never is
+    CHECK(b.fake.calls.empty());
 }
 
 TEST_CASE("a map on a backend that restores leaves all state as it was, at its making and in a frame") {
