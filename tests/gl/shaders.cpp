@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <type_traits>
 
 namespace gl = gnomon::gl;
 
@@ -28,4 +29,15 @@ TEST_CASE("texts are in the latest language that a context is sure to know, and 
         CHECK((header.find("#define precise\n") != std::string::npos) == (s.version < (s.es ? 32 : 45))); // a word of later ones
         CHECK((header.find("precision highp float;\n") != std::string::npos) == s.es);
     }
+}
+
+TEST_CASE("a rule in uniforms declares those of a far bound for texels that have one") {
+    const auto declares = []<gnomon::texel_format Texel>(std::type_identity<Texel>, const char* name) {
+        return gl::receive_text<Texel>(gl::shader_rule<Texel>::uniforms()).find(name) != std::string::npos;
+    };
+    for (const char* name : {"gnomon_bound_bias", "gnomon_bound_nearer", "gnomon_fade"}) {
+        CHECK(declares(std::type_identity<gnomon::rgb8>{}, name));
+        CHECK_FALSE(declares(std::type_identity<gnomon::rg8>{}, name));
+    }
+    CHECK(declares(std::type_identity<gnomon::rg8>{}, "gnomon_caster_bias"));
 }
