@@ -44,6 +44,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     std::ptrdiff_t next_row;            ///< in bytes
     floats right, bottom;               ///< left of and above these lie texels that have a next one
     floats e, m, z;                     ///< the bias: what pair and receiver are moved by
+    floats before;                      ///< a depth in codes there, once moved, is lit
     bool lit_beyond;
 
     /// Biases of one rounding keep the pair below 2^24. Offsets are of 32 bits, and a row has two texels for a load.
@@ -68,6 +69,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                 Isa::repeat(static_cast<float>(moved.e) * whole),
                 Isa::repeat(static_cast<float>(moved.m) * whole),
                 Isa::repeat(whole_depth ? static_cast<float>(-codes) : moved.z),
+                Isa::repeat(static_cast<float>(greater(0, -codes))),
                 r.lit_beyond};
     }
 
@@ -145,13 +147,12 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     /// nothing. False if a receiver that has a mask lies there, or is moved behind every caster, or its pair beyond nothing.
     GNOMON_LANES bool decided(const blended_decision& by, const pair& moved, const floats& mask, const std::uint16_t* depths,
                               masks& shadowed) noexcept {
-        const floats zero = Isa::repeat(0.0f), code = Isa::template codes_of<unorm16, 1>(depths, 0), depth = Isa::add(code, by.z);
+        const floats depth = Isa::add(Isa::template codes_of<unorm16, 1>(depths, 0), by.z);
         const floats rest = Isa::multiply(Isa::subtract(moved.e, moved.m), Isa::repeat(static_cast<float>(depth16::last)));
-        const floats sum = Isa::add_product(rest, moved.m, depth), doubt = Isa::repeat(0x1p18f);
-        const masks there = Isa::both(Isa::greater(mask, zero), Isa::both(Isa::greater(code, zero), Isa::greater(depth, zero)));
-        shadowed = Isa::both(there, Isa::greater(sum, doubt));
-        const masks near_nothing = Isa::both(Isa::not_greater(sum, doubt), Isa::not_greater(Isa::repeat(-0x1p18f), sum));
-        return !Isa::any(Isa::both(there, near_nothing)) &&
+        const floats sum = Isa::add_product(rest, moved.m, depth);
+        const masks there = Isa::both(Isa::greater(mask, Isa::repeat(0.0f)), Isa::greater(depth, by.before));
+        shadowed = Isa::both(there, Isa::not_greater(Isa::repeat(-0x1p18f), sum));
+        return !Isa::any(Isa::both(shadowed, Isa::not_greater(sum, Isa::repeat(0x1p18f)))) &&
                !Isa::any(Isa::both(there, Isa::greater(depth, Isa::repeat(static_cast<float>(depth16::last)))));
     }
 
