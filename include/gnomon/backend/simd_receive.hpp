@@ -103,7 +103,8 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         const masks asked = Isa::both(there, Isa::greater(z, by.before));
         shadowed = Isa::both(asked, Isa::not_greater(Isa::subtract(Isa::repeat(0.0f), doubt), sum));
         return !Isa::any(Isa::both(shadowed, Isa::not_greater(sum, doubt))) &&
-               !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) && !Isa::any(Isa::both(asked, Isa::greater(z, last)));
+               !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) &&
+               !Isa::any(Isa::both(asked, Isa::greater(z, last)));
     }
 
     GNOMON_LANES_VOID void store(Intensity* to, const masks& shadowed, const floats& darkness) noexcept {
