@@ -58,8 +58,8 @@ class Test:
     def __init__(self, tree, path, isa=None):
         self.path, self.name, self.isa = path, path.relative_to(tree.tests).as_posix(), isa
         self.options = (f"-DGNOMON_TEST_ONE_ISA=gnomon::{isa}",) if isa else ()
-        self.names = tree.own_headers(path)
         reached = tree.closure(path)
+        self.names = set().union(*(tree.own_headers(p) for p in reached | {path} if p.parent == path.parent))
         self.reaches = {p.relative_to(tree.include).as_posix() for p in reached if p.is_relative_to(tree.include)}
         self.key = digest(path.read_text(), *self.options, *(p.read_text() for p in sorted(reached)))
         self.has_many_isas = tree.tests / "support" / "one_isa.hpp" in reached
@@ -67,7 +67,7 @@ class Test:
         self.asked, self.found, self.lock = collections.Counter(), collections.Counter(), threading.Lock()
 
     def is_of(self, header):
-        """Is this the file that is named after the header, or does it include it itself?"""
+        """Is this the file that is named after the header, or does it include it itself, or what stands beside it?"""
         return self.name == f"{folder_of(header)}/{pathlib.Path(header).stem}.cpp" or header in self.names
 
     def is_near(self, header):
