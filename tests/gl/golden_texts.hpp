@@ -24,6 +24,7 @@ inline std::vector<std::pair<std::string, std::string>> golden_texts() {
         {"caster_rgba16", caster_rectangles_text<rgba16>()},
         {"caster_rgba16f", caster_rectangles_text<rgba16f>()},
         {"caster_rgba32f", caster_rectangles_text<rgba32f>()},
+        {"caster_rg32f", caster_rectangles_text<rg32f>()},
         {"caster_tm8", caster_rectangles_text<tm8>()},
         {"caster_tm16", caster_rectangles_text<tm16>()},
         {"bound_rgb8", bound_rectangles_text<rgb8>()},

@@ -25,6 +25,9 @@ namespace half16_text {
 namespace float32_text {
 #include "golden/caster_rgba32f.glsl"
 }
+namespace opaque_text {
+#include "golden/caster_rg32f.glsl"
+}
 namespace tm8_text {
 #include "golden/caster_tm8.glsl"
 }
@@ -159,6 +162,7 @@ TEST_CASE("casters in GLSL are stored as Texel::caster stores them, in the order
                      [] { return half16_text::gnomon_texel; }, 4096.0);
     compare<rgba32f>([](float s) { float32_text::gnomon_caster(s); }, [](float s, float o) { float32_text::gnomon_caster(s, o); },
                      [] { return float32_text::gnomon_texel; }, 4096.0);
+    compare<rg32f>([](float s) { opaque_text::gnomon_caster(s); }, none, [] { return opaque_text::gnomon_texel; }, 4096.0);
     compare<tm8>([](float s) { tm8_text::gnomon_caster(s); }, none, [] { return tm8_text::gnomon_texel; }, 255.0);
     compare<tm16>([](float s) { tm16_text::gnomon_caster(s); }, none, [] { return tm16_text::gnomon_texel; }, 65535.0);
 }
