@@ -87,6 +87,8 @@ class Crowd:
         if self.options:
             others = [] if own else sorted(callers, key=lambda t: t.path.stat().st_size)[:1]
         for tests in (own, others): # the others are compiled if there is need
+            if tests is others and own and not passed:
+                break # what none of its own calls is computed by the compiler, as constants are
             todo = {part for t in tests for part in self.program(t).parts}
             while todo:
                 part = self.last if self.last in todo else max(todo, key=lambda part: part.promise(self.header))
