@@ -75,19 +75,20 @@ class Crowd:
         self.programs, self.last, self.lock = {}, None, threading.Lock()
 
     def ask(self, mutant, callers=()):
-        """(answer, what said so) of the tests near the header; of those of many sets of lanes only one set. And the tests that have
-        called the mutant and passed. Callers are some that are known to."""
+        """(answer, what said so) of the tests near the header; of those of many sets of lanes one set, and at last all of them. And the
+        tests that have called the mutant and passed. Callers are some that are known to."""
         number, passed = self.number[mutant.text], set()
         if number not in self.together.inside:
             return (SURVIVED, ""), passed
-        near = sorted((t for t in self.tree.concerned(self.header) if t.is_near(self.header) and t.has_many_isas == bool(t.isa)),
-                      key=lambda t: (t.name, t.isa or ""))
+        near = sorted((t for t in self.tree.concerned(self.header) if t.is_near(self.header)), key=lambda t: (t.name, t.isa or ""))
+        all_lanes = [t for t in near if t.has_many_isas and not t.isa and t.is_of(self.header) and not self.options]
+        near = [t for t in near if t.has_many_isas == bool(t.isa)]
         own = [t for t in near if t.is_of(self.header)]
         others = [t for t in near if t not in own]
         if self.options:
             others = [] if own else sorted(callers, key=lambda t: t.path.stat().st_size)[:1]
-        for tests in (own, others): # the others are compiled if there is need
-            if tests is others and own and not passed:
+        for tests in (own, others, all_lanes): # those behind are compiled if there is need
+            if tests is not own and own and not passed:
                 break # what none of its own calls is computed by the compiler, as constants are
             todo = {part for t in tests for part in self.program(t).parts}
             while todo:
