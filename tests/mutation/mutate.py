@@ -319,8 +319,8 @@ class Whole:
     def __contains__(self, header):
         return header in self.entries and self.entries[header] == self.line(header)
 
-    def enter(self, headers):
-        self.entries = {h: line for h, line in self.entries.items() if h in self.tree.headers} | {h: self.line(h) for h in headers}
+    def enter(self, header):
+        self.entries = {h: line for h, line in self.entries.items() if h in self.tree.headers} | {header: self.line(header)}
         self.path.write_text("".join(line + "\n" for line in [*self.note, *(self.entries[h] for h in sorted(self.entries))]))
 
 
@@ -333,6 +333,8 @@ def run(tree, given):
     explained = Explained(tree.tests / "mutation" / "survivors.txt")
     answers, rows, lock, began = collections.defaultdict(list), {}, threading.Lock(), time.monotonic()
     state = {"done": 0, "new": 0, "shown": began}
+    left = collections.Counter(header for header, _ in wanted)
+    asked = {h for h in left if len({m.text for there, m in wanted if there == h}) == len(mutants.mutants_of(tree.text[h]))}
 
     def survivor_key(header, near):
         return digest(header, str(near), *sorted(t.key for t in [*tree.concerned(header), *tree.refusals]))
@@ -363,6 +365,9 @@ def run(tree, given):
                 print(f"SURVIVED {header}:{mutant.line}:{mutant.column}\n- {mutant.before}\n+ {mutant.after}", flush=True)
             if given.verbose and answer != SURVIVED:
                 print(f"{header}:{mutant.line}:{mutant.column} {answer} {said} {seconds:.1f} s: {mutant.after}", flush=True)
+            left[header] -= 1
+            if given.enter and header in asked and not left[header] and not row["unexplained"] and not row[LEFT_OUT]:
+                Whole(tree).enter(header)
             state["done"] += 1
             state["new"] += not old
             now = time.monotonic()
@@ -374,10 +379,7 @@ def run(tree, given):
         for _ in pool.map(one, wanted): # raises what a job raised
             pass
 
-    asked = {h for h in rows if len({m.text for there, m in wanted if there == h}) == len(mutants.mutants_of(tree.text[h]))}
     stale = explained.stale(tree, answers, set() if given.quick else asked)
-    if given.enter:
-        Whole(tree).enter(h for h in asked if not rows[h]["unexplained"] and not rows[h][LEFT_OUT])
     print(f"\n{'':42}{'test':>7}{'compiler':>9}{'clock':>7}{'survived':>9}{'explained':>10}{'left out':>10}{'s each':>8}")
     lines = []
     for header, row in sorted(rows.items()):
