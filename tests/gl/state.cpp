@@ -36,8 +36,8 @@ const version versions[] = {{"3.3", {}},
                             {"OpenGL ES 3.1", {}},
                             {"OpenGL ES 3.2", {}}};
 
-/// Changes all that a pass may: what a guard sets is set by it already.
-void pass(const gl::context& c) {
+/// Changes all that a pass may: what a guard sets is set by it already. Leaves blending on, as a hostile host does, or off.
+void pass(const gl::context& c, bool blends = true) {
     const gl::functions& f = *c.gl;
     const gl::framebuffer frame(c);
     const gl::vertex_array corners(c);
@@ -60,6 +60,7 @@ void pass(const gl::context& c) {
     f.DepthMask(0);
     f.PixelStorei(enums::unpack_row_length, 3);
     f.UseProgram(0);
+    if (!blends) f.Disable(enums::blend);
 }
 
 /// What a guard leaves to the pass, which sets it to its own.
@@ -98,7 +99,7 @@ TEST_CASE("a restoring guard leaves all state as a hostile host had it") {
                 const auto seen = test::state_of(c, units);
                 {
                     const gl::state_guard<gl::state_policy::restore> guard(c, units);
-                    pass(c);
+                    pass(c, seed % 2 == 0);
                     CHECK(differing(fake, before) != ""); // so there was something to restore
                 }
                 CHECK(differing(fake, before) == "");
@@ -238,7 +239,7 @@ TEST_CASE("a context that answers with one mode for all polygons has it back for
 }
 
 TEST_CASE("a restoring guard asks for nothing that a context has not") {
-    for (const char* version : {"OpenGL ES 3.0", "3.3", "4.5"}) {
+    for (const char* version : {"OpenGL ES 3.0", "OpenGL ES 3.1", "3.3", "4.5"}) {
         test::fake_gl fake(version);
         const gl::context c = *gl::context::of(fake.table);
         fake.table.GetIntegerv = [](unsigned name, int* to) {
@@ -248,8 +249,9 @@ TEST_CASE("a restoring guard asks for nothing that a context has not") {
             CHECK(((name != enums::clip_origin && name != enums::clip_depth_mode) || latest));
             *to = static_cast<int>(test::fake_gl::current()->get(name)[0]);
         };
-        fake.table.GetIntegeri_v = [](unsigned name, unsigned index, int* to) {
+        fake.table.GetIntegeri_v = [](unsigned name, unsigned index, int* to) { // OpenGL ES 3.1 and 3.3 have one blend function
             CHECK(name != 0);
+            CHECK(test::fake_gl::current()->version == "4.5");
             *to = static_cast<int>(test::fake_gl::current()->get(name, index)[0]);
         };
         {
