@@ -215,11 +215,13 @@ TEST_CASE("a restoring guard pauses transform feedback that runs, and leaves alo
 TEST_CASE("a context with a mode for each face of a polygon has both back") {
     test::fake_gl fake("3.3 Compatibility Profile");
     const gl::context c = *gl::context::of(fake.table);
+    constexpr unsigned point = 0x1B00;
     c.gl->PolygonMode(enums::front, enums::line);
+    c.gl->PolygonMode(enums::back_face, point);
     {
         const gl::state_guard<gl::state_policy::restore> guard(c);
     }
-    CHECK(fake.get(enums::polygon_mode) == test::fake_gl::values{double{enums::line}, double{enums::fill}});
+    CHECK(fake.get(enums::polygon_mode) == test::fake_gl::values{double{enums::line}, double{point}});
 }
 
 TEST_CASE("a context that answers with one mode for all polygons has it back for both faces") {
@@ -246,6 +248,7 @@ TEST_CASE("a restoring guard asks for nothing that a context has not") {
             const bool es = test::fake_gl::current()->version.front() == 'O', latest = test::fake_gl::current()->version == "4.5";
             CHECK(name != 0);
             CHECK((name != enums::polygon_mode || !es));
+            CHECK(((name != enums::transform_feedback_active && name != enums::transform_feedback_paused) || es || latest));
             CHECK(((name != enums::clip_origin && name != enums::clip_depth_mode) || latest));
             *to = static_cast<int>(test::fake_gl::current()->get(name)[0]);
         };
@@ -293,5 +296,6 @@ TEST_CASE("of a context with more of everything than there is room for, a restor
     CHECK(fake.calls["BindSampler"] == 2 * 8);
     CHECK(fake.get(enums::clip_distance0)[0] > 0);
     CHECK(fake.get(enums::clip_distance0 + 24)[0] > 0);
+    for (unsigned i = 25; i < 64; ++i) CHECK(fake.get(enums::clip_distance0 + i)[0] <= 0);
     CHECK(static_cast<unsigned>(fake.get(enums::sampler_binding)[0]) == first.name());
 }
