@@ -6,6 +6,7 @@
 //     box, box.avx2             the same of a box, 8-bit only; its peer is boxcv, cv::boxFilter
 //     blur, sep                 cv::GaussianBlur and cv::sepFilter2D in one thread, if CMake found OpenCV
 //     copy, stream              the floor: memcpy of the same bytes, and reading with stores that pass the caches by (kTAPS is k0)
+//     work, work.avx2           the other floor: the products of fast, or of floats the sums, in registers and nothing else; k5 and k9
 #include "floors.hpp"
 
 #include <gnomon/backend/simd.hpp>
@@ -15,6 +16,19 @@
 #include <string>
 #if GNOMON_BENCH_OPENCV
 #include <opencv2/imgproc.hpp>
+#endif
+
+#if GNOMON_X86
+GNOMON_TARGET_BEGIN(GNOMON_AVX2)
+#define ARITHMETIC_ON with_avx2
+#include "arithmetic.inl"
+#undef ARITHMETIC_ON
+GNOMON_TARGET_END
+GNOMON_TARGET_BEGIN(GNOMON_AVX512)
+#define ARITHMETIC_ON with_avx512
+#include "arithmetic.inl"
+#undef ARITHMETIC_ON
+GNOMON_TARGET_END
 #endif
 
 namespace {
@@ -104,6 +118,23 @@ template <typename Texel> void add_floor(int size) {
 #endif
 }
 
+#if GNOMON_X86
+/// What fast asks of a register of texels: bytes go in pairs of taps through columns of 16 bits and rows of 32, 16-bit codes through 32
+/// both times, and of floats the sums, 2R a pass, are more than the products, which other units make.
+template <typename Texel> constexpr int operations(int taps) {
+    return std::same_as<Texel, rg32f> ? 2 * (taps - 1) : (sizeof(Texel) == 2 ? 3 : 2) * (taps + 1);
+}
+template <typename Isa, typename Texel> void add_work(const std::string& what, int size, void (*calculate)(std::int64_t)) {
+    const auto bytes = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * sizeof(Texel);
+    for (const int taps : {5, 9}) {
+        const auto count = static_cast<std::int64_t>(bytes) / Isa::bytes * operations<Texel>(taps);
+        add(what, format<Texel>, taps, size, bytes, [count, calculate](benchmark::State& state) {
+            for ([[maybe_unused]] auto _ : state) calculate(count);
+        });
+    }
+}
+#endif
+
 /// Boxes: box and box.avx2, and OpenCV's.
 template <kernel Kernel> void add_box(int size) {
     add_ours<best_isa, Kernel, rg8>("box", size);
@@ -121,6 +152,15 @@ template <kernel Kernel> void add_box(int size) {
 template <typename Texel> void add_format() {
     for (const int size : sizes) {
         add_floor<Texel>(size);
+#if GNOMON_X86
+        using namespace floors;
+        if (best_lanes() >= cpu_level::avx512)
+            add_work<avx512, Texel>("work", size,
+                                    std::same_as<Texel, rg32f> ? with_avx512::sums<avx512> : with_avx512::products<avx512>);
+        if (best_lanes() >= cpu_level::avx2)
+            add_work<avx2, Texel>("work.avx2", size,
+                                  std::same_as<Texel, rg32f> ? with_avx2::sums<avx2> : with_avx2::products<avx2>);
+#endif
         add_all<gaussian<1>, Texel>(size);
         add_all<gaussian<2>, Texel>(size);
         add_all<gaussian<3>, Texel>(size);
