@@ -74,9 +74,9 @@ class Crowd:
         self.together = Together(tree.text[header], members)
         self.programs, self.last, self.lock = {}, None, threading.Lock()
 
-    def ask(self, mutant, callers=()):
+    def ask(self, mutant, callers=(), own_alone=False):
         """(answer, what said so) of the tests near the header; of those of many sets of lanes one set, and at last all of them. And the
-        tests that have called the mutant and passed. Callers are some that are known to."""
+        tests that have called the mutant and passed. Callers are some that are known to; `own_alone` asks the header's own tests and no others."""
         number, passed = self.number[mutant.text], set()
         if number not in self.together.inside:
             return (SURVIVED, ""), passed
@@ -87,7 +87,7 @@ class Crowd:
         others = [t for t in near if t not in own]
         if self.options:
             others = [] if own else sorted(callers, key=lambda t: t.path.stat().st_size)[:1]
-        for tests in (own, others, all_lanes): # those behind are compiled if there is need
+        for tests in (own,) if own_alone else (own, others, all_lanes): # those behind are compiled if there is need
             if tests is not own and own and not passed:
                 break # what none of its own calls is computed by the compiler, as constants are
             todo = {part for t in tests for part in self.program(t).parts}

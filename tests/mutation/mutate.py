@@ -4,7 +4,7 @@ A mutant is a header with one change. The tests whose includes reach that header
 sleep but for one (together.py, crowd.py), and their cases are run, the likeliest first, until one fails: that takes most mutants half a
 second. What cannot sleep, as a constant, is compiled by itself, one test a program; a test of many sets of lanes is asked about one of
 them before. What survives them all must also survive the files that must not compile, and the header's own tests under sanitizers.
-Then it has to stand in survivors.txt with a reason; what stands there is only asked about while it can sleep, which is soon told.
+Then it has to stand in survivors.txt with a reason; of what stands there the header's own tests are asked while it can sleep, which is soon told.
 
 Answers are kept in build/mutation/results.tsv, so an interrupted run goes on: one that was found counts until its header changes,
 a survivor until a test that reaches it does. Remove the file to begin anew. A header of which every mutant is found or explained is
@@ -346,9 +346,11 @@ def run(tree, given):
         found_key, survived_key, name = digest(header, tree.text[header]), survivor_key(header, given.near), digest(mutant.text)
         old = kept.get((found_key, name)) or kept.get((survived_key, name))
         start = time.monotonic()
-        if not old and soon:
+        if not old and known and soon:
+            (answer, said), _ = tree.crowd(header, mutant).ask(mutant, own_alone=True)
+        elif not old and soon:
             (answer, said), called, _ = tree.ask_together(header, mutant)
-            answer = LEFT_OUT if answer == SURVIVED and not called and not known else answer
+            answer = LEFT_OUT if answer == SURVIVED and not called else answer
         else:
             answer, said = old[:2] if old else judge(tree, header, mutant, given.near)
         seconds = old[2] if old else time.monotonic() - start
