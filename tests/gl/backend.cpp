@@ -49,7 +49,7 @@ template <typename Use> void for_each_failure(const std::vector<failure>& failur
 }
 
 const std::vector<failure> programs_fail{{"BufferData", 0, "a buffer of"}, {"CreateProgram", 0, "no name for a program"}};
-const std::vector<failure> receiving_fails{{"TexImage2D", 0, "GL_OUT_OF_MEMORY"},
+const std::vector<failure> receiving_fails{{"TexImage2D", 0, "RG8: GL_OUT_OF_MEMORY"},
                                            {"TexSubImage2D", 0, "a map's texels: GL_OUT_OF_MEMORY"},
                                            {"TexImage2D", 1, "RGBA32F: GL_OUT_OF_MEMORY"},
                                            {"TexSubImage2D", 1, "uploading receivers: GL_OUT_OF_MEMORY"},
@@ -163,6 +163,21 @@ TEST_CASE("as many receivers are decided about as have all that they need, and n
         CHECK(run.problem().sentence == "");
     }
     CHECK(fake.wrong == "");
+}
+
+TEST_CASE("more receivers than a square of the longest lines are all decided about, and none behind the last is read") {
+    test::fake_gl fake("3.3");
+    fake.table.ReadPixels = [](int, int, int width, int height, unsigned, unsigned, void* to) {
+        CHECK((width == 1024 && height == 1025));
+        std::fill_n(static_cast<std::uint32_t*>(to), 4 * width * height, std::bit_cast<std::uint32_t>(0.5f));
+    };
+    const gl::context c = *gl::context::of(fake.table);
+    const gl::backend run(c);
+    constexpr std::size_t count = 1024 * 1024 + 1;
+    const std::vector<rg8> texels(count, rg8::clear());
+    std::vector<float> made(count);
+    gnomon::receive(run, texels, std::vector<float>(count), made);
+    CHECK(std::count(made.begin(), made.end(), 0.5f) == static_cast<std::ptrdiff_t>(count));
 }
 
 TEST_CASE("an empty part of an image is filtered without a call, and a texel that GL has not without GL") {
