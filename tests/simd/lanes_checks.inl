@@ -157,18 +157,23 @@ template <typename Isa> int wrong_longs(const memory* m) {
            (std::memcmp(converted, expected, static_cast<std::size_t>(Isa::bytes)) != 0);
 }
 
+/// Two floats of which neither is a number, or both are the same one.
+inline bool same_or_none(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b)); }
+template <typename Isa>
+bool same_or_none_each(const typename Isa::floats& mine, const typename gnomon::emulated<Isa::bytes>::floats& theirs) {
+    float a[16], b[16];
+    Isa::store(a, mine);
+    gnomon::emulated<Isa::bytes>::store(b, theirs);
+    for (int i = 0; i < Isa::float_lanes; ++i)
+        if (!same_or_none(a[i], b[i])) return false;
+    return true;
+}
+
 /// The same for arithmetic and comparisons of floats, any of which may be none: what is left of a NaN may be any NaN.
 template <typename Isa> int wrong_floats(const float* number) {
     using same = gnomon::emulated<Isa::bytes>;
     constexpr auto width = static_cast<std::size_t>(Isa::bytes);
-    const auto equal = [](const typename Isa::floats& mine, const typename same::floats& theirs) {
-        float a[16], b[16];
-        Isa::store(a, mine);
-        same::store(b, theirs);
-        for (int i = 0; i < Isa::float_lanes; ++i)
-            if (std::memcmp(&a[i], &b[i], sizeof(float)) != 0 && !(std::isnan(a[i]) && std::isnan(b[i]))) return false;
-        return true;
-    };
+    const auto equal = same_or_none_each<Isa>;
     const auto a = Isa::load(number), b = Isa::load(number + 16), c = Isa::load(number + 32), one = Isa::repeat(1.0f);
     const auto e = same::load(number), f = same::load(number + 16), g = same::load(number + 32), unit = same::repeat(1.0f);
     // All greater but for a few now and then, or one.
@@ -225,22 +230,14 @@ template <typename Isa> int wrong_blends(int first) {
 /// Each channel of texels of one to four, as it is, and whole codes as a share of their scale; NaN may be any NaN.
 template <typename Isa, typename Channel> int wrong_channels(const typename Channel::storage* stored) {
     using same = gnomon::emulated<Isa::bytes>;
-    const auto differ = [](const typename Isa::floats& mine, const typename same::floats& theirs) {
-        float a[16], b[16];
-        Isa::store(a, mine);
-        same::store(b, theirs);
-        for (int i = 0; i < Isa::float_lanes; ++i)
-            if (std::memcmp(&a[i], &b[i], sizeof(float)) != 0 && !(std::isnan(a[i]) && std::isnan(b[i]))) return true;
-        return false;
-    };
     int n = 0;
     const auto ask = [&]<int Channels>(std::integral_constant<int, Channels>) {
         for (int c = 0; c < Channels; ++c) {
             const auto mine = Isa::template codes_of<Channel, Channels>(stored, c);
             const auto theirs = same::template codes_of<Channel, Channels>(stored, c);
-            n += differ(mine, theirs);
+            n += !same_or_none_each<Isa>(mine, theirs);
             if constexpr (Channel::whole_codes)
-                n += differ(Isa::fraction(mine, Channel::scale), same::fraction(theirs, Channel::scale));
+                n += !same_or_none_each<Isa>(Isa::fraction(mine, Channel::scale), same::fraction(theirs, Channel::scale));
         }
     };
     ask(std::integral_constant<int, 1>{});
@@ -309,9 +306,6 @@ template <typename Isa> int wrong_products(const double* sums, const double* who
     return differing<Isa>(Isa::add_product(Isa::load(sums), Isa::load(whole), Isa::load(whole + 8)),
                           same::add_product(same::load(sums), same::load(whole), same::load(whole + 8)));
 }
-
-/// Two floats of which neither is a number, or both are the same one.
-inline bool same_or_none(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b)); }
 
 /// The same in floats, and on both sides of each number.
 template <typename Isa, gnomon::channel Channel>
