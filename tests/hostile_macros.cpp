@@ -1,4 +1,4 @@
-// The words <windows.h>, X11 and old C headers take as macros: gnomon must not use one of them as a name.
+// The words <windows.h>, X11, engines and old C headers take as macros: gnomon must not use one of them as a name.
 // Standard headers come first; these macros are at war with them, too.
 #include <array>
 #include <bit>
@@ -45,6 +45,10 @@
 #define Success 0
 #define Always 2
 #define Complex 0
+// Unreal, and AssertMacros.h of macOS
+#define check(x) (void)(x)
+#define verify(x) (void)(x)
+#define require(x, label) goto label
 // complex.h, and what fmt tests with
 #define I 42
 

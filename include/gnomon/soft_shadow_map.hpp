@@ -32,8 +32,9 @@ template <typename Map> class asked_for_shadow {
     [[nodiscard]] float shadow(int x, int y, float z) const noexcept {
         return whole(self().size()).contains(x, y) ? gnomon::shadow(self().soft()(x, y), z, self().decision) : 0.0f;
     }
-    /// A position is not a texel: ask shadow_at.
-    template <std::floating_point X, std::floating_point Y> float shadow(X x, Y y, float z) const = delete;
+    template <typename X, typename Y>
+        requires(std::floating_point<X> || std::floating_point<Y>)
+    float shadow(X x, Y y, float z) const = delete; // a position is no texel: ask shadow_at(x, y, z)
     /// Intensity at a position in texels, blended from four; 0 off the map.
     [[nodiscard]] float shadow_at(float x, float y, float z) const noexcept {
         return gnomon::shadow(sample(self().soft(), x, y), z, self().decision);
@@ -46,7 +47,7 @@ template <typename Map> class asked_for_shadow {
     }
     /// Could a receiver with these texels and depths be shadowed at all? If not, draw it without shadow code.
     [[nodiscard]] bool reaches(texel_rect footprint, depth_interval depth = {}) const noexcept {
-        return casters_reach(self().tiles(), footprint, depth, self().decision.caster.towards);
+        return casters_reach(self().tiles(), footprint, depth, self().decision.caster);
     }
 
   private:
@@ -59,7 +60,7 @@ template <typename Map> class asked_for_shadow {
 ///     each frame:  map.clear();  map.cast(...);  map.filter();  ... map.shadow(x, y, z) ...
 ///
 /// Casting and filtering cost what the casters cover, not what the map measures. Allocates in its constructor and never again.
-/// Between `filter` and the next `clear` any number of threads may read.
+/// Between `filter` and the next `clear` any number of threads may read. One that was moved from may only be assigned to or destroyed.
 template <texel_format Texel, kernel Kernel = binomial<3>, backend_for<Texel, Kernel> Backend = simd<>>
 class soft_shadow_map : public asked_for_shadow<soft_shadow_map<Texel, Kernel, Backend>> {
   public:

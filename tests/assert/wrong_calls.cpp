@@ -36,7 +36,7 @@ std::string complaint() {
 }
 } // namespace
 
-TEST_CASE("an image_view without memory or with rows askew is a wrong call") {
+TEST_CASE("an image_view without memory, with rows askew or with rows that overlap is a wrong call") {
     int memory[6]{};
     CHECK(image_view<int>(memory, {3, 2}).size() == extent{3, 2});
     CHECK(image_view<int>(nullptr, {0, 2}).size().empty());
@@ -46,16 +46,25 @@ TEST_CASE("an image_view without memory or with rows askew is a wrong call") {
     CHECK(complaint() == "gnomon: an image_view that is not empty needs memory");
     CHECK(image_view<int>(memory, {1, 2}, 9).stride() == 9);
     CHECK(complaint() == "gnomon: the rows of an image_view must be aligned for its texels");
+    (void)image_view<int>(reinterpret_cast<int*>(reinterpret_cast<char*>(memory) + 2), {1, 1}, 4);
+    CHECK(complaint() == "gnomon: the rows of an image_view must be aligned for its texels");
+    (void)image_view<int>(memory + 4, {2, 3}, -8);
+    (void)image_view<int>(memory, {6, 1}, 4);
+    (void)image_view<const int>(memory, {2, 3}, 4); // may be read
+    CHECK(complaint() == "");
+    const std::string overlap = "gnomon: the rows of an image_view that is written overlap: its stride is in bytes";
+    (void)image_view<int>(memory, {2, 3}, 4);
+    CHECK(complaint() == overlap);
+    (void)image_view<int>(memory + 4, {2, 3}, -4);
+    CHECK(complaint() == overlap);
 }
 
-TEST_CASE("a grid of tiles below one texel and an engine's grid without a map are wrong calls") {
+TEST_CASE("a grid of tiles below one texel is a wrong call") {
     (void)tile_grid({8, 8}, 1);
-    (void)reference_grid({1, 1}, 0);
+    (void)reference_grid({8, 0}, 0);
     CHECK(complaint() == "");
     (void)tile_grid({8, 8}, 0);
-    CHECK(complaint() == "gnomon: a tile is at least one texel wide");
-    (void)reference_grid({8, 0}, 0);
-    CHECK(complaint() == "gnomon: reference_grid needs a map");
+    CHECK(complaint() == "gnomon: a tile is at least one texel wide; 16 to 64 serve most maps");
 }
 
 TEST_CASE("a greedy merge with a word too little is a wrong call") {
@@ -68,24 +77,47 @@ TEST_CASE("a greedy merge with a word too little is a wrong call") {
     CHECK(complaint() == "gnomon: the greedy merge needs a word of scratch for every word of the grid");
 }
 
-TEST_CASE("a filter into its own image or with too narrow a scratch is a wrong call unless there is nothing to filter") {
+TEST_CASE("a filter into texels that it reads is a wrong call, and writes nothing, but into texels between them it is none") {
+    image<rg8> atlas({128, 6}, rg8::caster(0.5f));
+    const image<rg8> before = atlas;
+    filter_scratch<rg8, blur> scratch(64);
+    const auto said_of = [&](const auto& run, texel_rect from, texel_rect to) {
+        run.filter_region(image_view<const rg8>(atlas.view().part(from)), atlas.view().part(to), {0, 0, 64, 4}, scratch);
+        return complaint();
+    };
+    const std::string sentence = "gnomon: a filter reads one image and writes another: give it two that share no texel";
+    CHECK(said_of(scalar{}, {0, 0, 64, 4}, {0, 1, 64, 5}) == sentence);
+    CHECK(said_of(simd<>{}, {0, 0, 64, 4}, {0, 1, 64, 5}) == sentence);
+    CHECK(said_of(simd<>{}, {0, 0, 64, 4}, {63, 3, 127, 6}) == sentence);
+    CHECK(test::differences(atlas, before) == 0);
+    CHECK(said_of(scalar{}, {0, 0, 64, 4}, {64, 1, 128, 5}) == "");
+    CHECK(said_of(simd<>{}, {0, 0, 64, 4}, {64, 1, 128, 5}) == "");
+    CHECK(test::differences(atlas, before) > 0);
+}
+
+TEST_CASE("a filter into its own image or with a scratch of no room is a wrong call unless there is nothing to filter") {
     image<rg8> from({8, 2}, rg8::clear()), to = from;
-    filter_scratch<rg8, blur> scratch(8), narrow(7);
+    filter_scratch<rg8, blur> scratch(8), narrow(1), none;
     filter_region(from.view(), to.view(), {0, 0, 8, 2}, scratch);
-    filter_region(from.view(), to.view(), {0, 0, 7, 2}, narrow);
+    filter_region(from.view(), to.view(), {0, 0, 8, 2}, narrow);
     filter_region(from.view(), from.view(), {8, 0, 9, 2}, scratch);
-    filter_region(from.view(), to.view(), {8, 0, 9, 2}, narrow);
+    filter_region(from.view(), to.view(), {8, 0, 9, 2}, none);
     CHECK(complaint() == "");
     filter_region(from.view(), from.view(), {0, 0, 8, 2}, scratch);
-    CHECK(complaint() == "gnomon: a filter reads one image and writes another");
+    CHECK(complaint() == "gnomon: a filter reads one image and writes another: give it two that share no texel");
     image<rg8> wide({64, 2}, rg8::caster(0.5f)); // as wide as a register
     const image<rg8> before = wide;
     filter_scratch<rg8, binomial<1>> unused(64);
     simd<>{}.filter_region(image_view<const rg8>(wide.view()), wide.view(), {0, 0, 64, 2}, unused);
-    CHECK(complaint() == "gnomon: a filter reads one image and writes another");
+    CHECK(complaint() == "gnomon: a filter reads one image and writes another: give it two that share no texel");
     CHECK(test::differences(before, wide) == 0);
-    filter_region(from.view(), to.view(), {0, 0, 8, 2}, narrow);
-    CHECK(complaint() == "gnomon: the filter's scratch is narrower than the region; make it for the map's width");
+    const std::string room = "gnomon: the filter's scratch has no room for a texel; make it for the map's width";
+    filter_region(from.view(), to.view(), {0, 0, 8, 2}, none);
+    CHECK(complaint() == room);
+    filter_scratch<rg8, binomial<1>> none_either;
+    simd<>{}.filter_region(before.view(), wide.view(), {0, 0, 64, 2}, none_either);
+    CHECK(complaint() == room);
+    CHECK(test::differences(before, wide) == 0);
 }
 
 TEST_CASE("lanes that the processor has not are a wrong call, and the oracle's call then") {
@@ -117,7 +149,7 @@ TEST_CASE("a filter of images and tiles that differ in size is a wrong call unle
     };
     CHECK(said_of(from, to, tiles) == "");
     CHECK(said_of(small, to, tile_grid()) == "");
-    const std::string sentence = "gnomon: the tile grid and both images must have the same size";
+    const std::string sentence = "gnomon: the tile grid and both images must have the same size: make all three from one extent";
     CHECK(said_of(small, to, tiles) == sentence);
     CHECK(said_of(from, small, tiles) == sentence);
     CHECK(said_of(from, to, tile_grid({4, 2}, 4)) == sentence);
@@ -131,7 +163,7 @@ TEST_CASE("a pyramid of a map or of tiles that it was not made for is a wrong ca
     (void)sample(map.view(), mips, 1.0f, 1.0f, 1.0f);
     (void)sample(map.view(), pyramid<rg8>(), 1.0f, 1.0f, 1.0f); // no levels: the map alone
     CHECK(complaint() == "");
-    const std::string built = "gnomon: a pyramid is built for one size of map and of tile";
+    const std::string built = "gnomon: a pyramid is built for one size of map and of tile: make it anew for another";
     mips.build(small.view(), tiles);
     CHECK(complaint() == built);
     mips.build(map.view(), tile_grid({8, 1}, 4));

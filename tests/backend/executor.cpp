@@ -232,6 +232,40 @@ TEST_CASE_TEMPLATE("frames that are filtered over the last one by an executor ar
     CHECK(most == 5);
 }
 
+TEST_CASE("after a frame whose map was cut otherwise the next one is filtered whole, unless one of them is empty") {
+    dice roll(518);
+    using kernel = gaussian<4>;
+    int count = 0;
+    band_scratch<rg8, kernel> scratch(size.width, 5);
+    for (int round = 0; round < 24; ++round) {
+        const scene<rg8> s(roll, round % 4, kernel::radius);
+        const image<rg8> expected = test::dense<kernel>(s.casters);
+        image<int> times(size, 0), needed(size, 0);
+        gnomon::for_each_region_to_filter<kernel>(s.tiles, [&](texel_rect r) { needed.view().fill(r, 1); });
+        painter run;
+        run.times = &times;
+        tile_grid before(round % 3 == 0 ? extent{400, 261} : size, round % 2 == 0 ? 4 : 64);
+        image<rg8> soft(size, rg8::clear());
+        gnomon::refilter(run, s.casters.view(), soft.view(), before, s.tiles, scratch, backwards{&count});
+        CHECK(test::differences(soft, expected) == 0);
+        CHECK(test::differences(times, needed) == 0);
+
+        before.mark({-20, -20, 900, 900}, kernel::radius); // whatever it left may be anywhere
+        soft = test::noise<rg8>(roll, size, 2);
+        times.view().fill(0);
+        needed.view().fill(s.tiles.empty() ? 0 : 1);
+        gnomon::refilter(run, s.casters.view(), soft.view(), before, s.tiles, scratch, backwards{&count});
+        CHECK(test::differences(soft, expected) == 0);
+        CHECK(test::differences(times, needed) == 0);
+    }
+    image<rg8> soft(size, rg8::caster(0.5f));
+    tile_grid before(size, 16);
+    before.mark(whole(size));
+    gnomon::refilter(gnomon::scalar{}, soft.view().part({0, 0, 1, 1}), soft.view(), before, tile_grid{}, scratch,
+                     backwards{&count});
+    CHECK(test::differences(soft, image<rg8>(size, rg8::clear())) == 0);
+}
+
 TEST_CASE("an image of receivers in bands is decided as row by row, where all three images are") {
     dice roll(515);
     const gnomon::rule distant{.caster = {.depth = 0.25f}};

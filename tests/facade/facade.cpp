@@ -16,6 +16,12 @@ constexpr gnomon::simd<> run{}; // what a map runs on if nothing is said
 
 template <typename Texel> using map_of = gnomon::soft_shadow_map<Texel, binomial<3>>;
 
+// A position is no texel, not even along one axis.
+template <typename X, typename Y>
+concept asked_as_a_texel = requires(const map_of<gnomon::rg8>& map, X x, Y y) { map.shadow(x, y, 0.5f); };
+static_assert(asked_as_a_texel<int, int> && asked_as_a_texel<short, unsigned char>);
+static_assert(!asked_as_a_texel<float, float> && !asked_as_a_texel<int, float> && !asked_as_a_texel<double, int>);
+
 /// Draws a caster of two depths texel by texel, as a host's rasteriser does, and says what it touched.
 template <typename Texel> struct drawing {
     struct touched {

@@ -178,6 +178,11 @@ template <typename Backend> void reached_under_a_bias(const Backend& run) {
         CHECK(map.reaches({8, 8, 9, 9}, {0.3f, 0.4f}) == (b.towards != gnomon::bias_towards::light));
         CHECK(map.reaches({8, 8, 9, 9}, {0.6f, 0.7f}));
     }
+    for (const float depth : {-0.25f, 0.0f, 0.25f}) { // nearer by a quarter, a receiver is shadowed before its caster
+        map.decision.caster = {.depth = depth};
+        CHECK((map.shadow(8, 8, 0.4f) > 0.0f) == (depth < 0.0f));
+        CHECK(map.reaches({8, 8, 9, 9}, {0.3f, 0.4f}) == (depth < 0.0f));
+    }
 }
 
 template <typename Backend> void reaches_asks_tiles(const Backend& run) {

@@ -43,7 +43,7 @@ template <typename Map> void receive(Map& map, fuzz::bytes& in) {
     const float farthest = any_depth(in), nearest = in.flip() ? farthest : any_depth(in);
     const depth_interval depth{nearest, farthest};
     map.decision = {.caster = {in.one_of({bias_towards::light, bias_towards::light, bias_towards::none, bias_towards::shadow}),
-                               in.within(1, 3), in.flip() ? 0.0f : in.unit()},
+                               in.within(1, 3), in.flip() ? 0.0f : 2.0f * in.unit() - 1.0f},
                     .lit_beyond = in.flip()};
     const bool reached = map.reaches(footprint, depth), by_tiles = casters_reach(map.tiles().tiles(), footprint);
     demand(!footprint.empty() || !reached, "an empty receiver is reached by nothing");

@@ -155,12 +155,12 @@ TEST_CASE("a lost context says so where it can, and GL's errors come as sentence
     test::fake_gl fake("4.5");
     const auto c = *gl::context::of(fake.table);
     CHECK_FALSE(c.lost());
-    CHECK_FALSE(c.check("drawing"));
+    CHECK_FALSE(c.problem_while("drawing"));
     fake.errors = {gl::enums::invalid_operation, gl::enums::out_of_memory};
-    CHECK(c.check("drawing").sentence == "gnomon: drawing: GL_INVALID_OPERATION");
-    CHECK_FALSE(c.check("drawing")); // all flags are read
+    CHECK(c.problem_while("drawing").sentence == "gnomon: drawing: GL_INVALID_OPERATION");
+    CHECK_FALSE(c.problem_while("drawing")); // all flags are read
     fake.calls.clear();
-    CHECK_FALSE(c.check("drawing"));
+    CHECK_FALSE(c.problem_while("drawing"));
     CHECK(fake.calls["GetError"] == 1); // and none after the last
     for (const auto& [error, name] : {std::pair{0x500u, "GL_INVALID_ENUM"},
                                       {0x501u, "GL_INVALID_VALUE"},
@@ -169,11 +169,11 @@ TEST_CASE("a lost context says so where it can, and GL's errors come as sentence
                                       {0x9242u, "GL_CONTEXT_LOST"},
                                       {0x503u, "an error that GL does not name"}}) {
         fake.errors = {error};
-        CHECK(c.check("drawing").sentence == std::string("gnomon: drawing: ") + name);
+        CHECK(c.problem_while("drawing").sentence == std::string("gnomon: drawing: ") + name);
     }
     fake.lost = true;
     CHECK(c.lost());
-    CHECK(c.check("drawing").sentence == "gnomon: drawing: GL_CONTEXT_LOST"); // and does not ask for ever
+    CHECK(c.problem_while("drawing").sentence == "gnomon: drawing: GL_CONTEXT_LOST"); // and does not ask for ever
     test::fake_gl web("OpenGL ES 3.0 (WebGL 2.0)");
     const auto w = *gl::context::of(web.table);
     CHECK_FALSE(w.lost());

@@ -206,6 +206,6 @@ TEST_CASE("maps of two contexts work side by side") {
         one.make_current();
         CHECK(first.shadow(9, 10, 0.5f) < 0.01f);
         CHECK(first.shadow(25, 10, 0.5f) > 0.99f);
-        CHECK(one.context().check("two contexts").sentence == "");
+        CHECK(one.context().problem_while("two contexts").sentence == "");
     }
 }

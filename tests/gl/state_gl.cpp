@@ -78,7 +78,7 @@ TEST_CASE("among a hostile host's state a pass draws the same, and leaves all as
             test::dice roll(static_cast<std::uint64_t>(seed));
             const gl::program engine = program_of(c, whole_map, "out vec4 color;\nvoid main() { color = vec4(1); }\n");
             const test::hostile_host host(c, roll, units, engine.name());
-            CHECK(c.check("the host").sentence == "");
+            CHECK(c.problem_while("the host").sentence == "");
             const auto found = test::state_of(c, units);
             {
                 const gl::state_guard<gl::state_policy::restore> guard(c, units);
@@ -90,7 +90,7 @@ TEST_CASE("among a hostile host's state a pass draws the same, and leaves all as
                 const gl::state_guard dirty(c, units);
                 CHECK(drawn(c) == expected());
             }
-            CHECK(c.check("both guards").sentence == "");
+            CHECK(c.problem_while("both guards").sentence == "");
         }
     });
 }
@@ -133,7 +133,7 @@ TEST_CASE("transform feedback that runs is paused while a restoring guard lives,
         c.gl->BindVertexArray(corners.name());
         c.gl->UseProgram(recorded.name());
         begin(enums::triangles);
-        CHECK(c.check("the host").sentence == "");
+        CHECK(c.problem_while("the host").sentence == "");
         const auto found = test::state_of(c, units);
         {
             const gl::state_guard<gl::state_policy::restore> guard(c, units);
@@ -150,7 +150,7 @@ TEST_CASE("transform feedback that runs is paused while a restoring guard lives,
             CHECK(recorded_at(4 * corner + 1) == (corner == 2 ? 3 : -1));
         }
         CHECK(recorded_at(12) == static_cast<int>(unwritten));
-        CHECK(c.check("feedback").sentence == "");
+        CHECK(c.problem_while("feedback").sentence == "");
         c.gl->UseProgram(0);
     });
 }

@@ -76,7 +76,7 @@ void print_grid() {
             const texel_rect r = dice.rect(tiles.tiles().size(), 40);
             const float nearest = dice.unit(), farthest = dice.unit();
             culled.add(tiles.touches(r, farthest), casters_reach(tiles, r, {nearest, farthest}),
-                       casters_reach(tiles, r, {nearest, farthest}, bias_towards::shadow));
+                       casters_reach(tiles, r, {nearest, farthest}, {.towards = bias_towards::shadow}));
         }
     });
     print("depth_tiles_casters_reach", "-", "-", culled);

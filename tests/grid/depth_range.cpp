@@ -32,6 +32,12 @@ depth_interval depth_of(const std::vector<marked>& casters, texel_rect tile) {
 }
 } // namespace
 
+TEST_CASE("whoever asks for a tile_grid is given that of the depth_tiles") {
+    const depth_tiles tiles({90, 75}, 8);
+    const gnomon::tile_grid& grid = tiles;
+    CHECK(&grid == &tiles.tiles());
+}
+
 TEST_CASE("each tile knows the depths of the casters around it, frame after frame") {
     dice roll(51);
     depth_tiles tiles({90, 75}, 8);

@@ -235,3 +235,16 @@ TEST_CASE("no map, no marks and marks off the map have no regions") {
     for_each_region_left(tiles, tile_grid({30, 30}, 10), -1, [&](texel_rect r) { left += r == texel_rect{0, 0, 10, 10} ? 1 : 9; });
     CHECK(left == 1);
 }
+
+TEST_CASE("of a frame whose map was cut otherwise all that it needed is left") {
+    tile_grid before({90, 70}, 10);
+    before.mark({3, 3, 20, 9}, 4);
+    before.mark({60, 40, 61, 41}, 4);
+    for (const tile_grid& now : {tile_grid{}, tile_grid({90, 70}, 30), tile_grid({90, 71}, 10), tile_grid({80, 70}, 10)}) {
+        tile_grid marked = now;
+        marked.mark(whole(now.size()), 4);
+        std::vector<texel_rect> left;
+        for_each_region_left(before, marked, 4, [&left](texel_rect r) { left.push_back(r); });
+        CHECK(left == regions(before, 4));
+    }
+}

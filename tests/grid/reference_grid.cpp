@@ -225,7 +225,6 @@ TEST_CASE("what the engine has no rule for is rejected: NaN and inverted rectang
     }
 }
 
-#ifdef NDEBUG
 TEST_CASE("a reference grid without a map takes no caster and knows no shadow") {
     for (const extent none : {extent{}, extent{0, 512}, extent{512, -1}}) {
         reference_grid grid(none, 1);
@@ -235,7 +234,6 @@ TEST_CASE("a reference grid without a map takes no caster and knows no shadow") 
         CHECK(grid.blur_scissor() == texel_rect{});
     }
 }
-#endif
 
 TEST_CASE("infinite and huge rectangles cover the map, and no setting overflows") {
     constexpr double inf = test::infinity<double>;

@@ -79,10 +79,10 @@ TEST_CASE_TEMPLATE("a receiver that is culled is lit at every texel and between 
             const bool at_any_depth = s.shadowed(footprint, 2.0f, exact);
             lost += (truly && !reached) || (at_any_depth && !near_tiles) ||
                     (at_any_depth && !gnomon::casters_reach(s.tiles, footprint)) || (reached && !near_tiles);
-            for (const gnomon::bias b :
-                 {gnomon::unbiased, gnomon::towards_shadow}) // may shadow before the caster: any depth counts
+            for (const gnomon::bias b : {gnomon::unbiased, gnomon::towards_shadow,
+                                         gnomon::bias{.depth = -0.05f}}) // may shadow before the caster: any depth counts
                 lost += s.shadowed(footprint, z, gnomon::rule{.caster = b}) &&
-                        !gnomon::casters_reach(s.tiles, footprint, {nearer, z}, b.towards);
+                        !gnomon::casters_reach(s.tiles, footprint, {nearer, z}, b);
             culled += !reached;
             culled_by_depth += near_tiles && !reached;
             shadowed += truly;

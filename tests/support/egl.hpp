@@ -30,7 +30,7 @@ template <typename Body> void in_every_gl_context(Body&& body) {
         any = true;
         INFO("context: ", made.name());
         body(made.context());
-        const auto left = made.context().check("after the test");
+        const auto left = made.context().problem_while("after the test");
         CHECK(left.sentence == "");
     }
     if (!any) skip(why.empty() ? "no GL context is asked for" : why);

@@ -1,12 +1,14 @@
 // Images, views and spans: every address they give is the one that a size and a stride in bytes define.
 #include <gnomon/texel/image.hpp>
 
+#include "../support/dice.hpp"
 #include "../support/sweep.hpp"
 
 #include <gnomon/texel/texel.hpp>
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -240,6 +242,45 @@ TEST_CASE("part and fill reach exactly the texels that the rectangle and the ima
                         }
                 }
     CHECK(wrong.report() == "");
+}
+
+TEST_CASE("two views share texels where one address is in both, however they lie, if their rows are as far apart") {
+    std::vector<pixel> memory(60);
+    test::dice roll(77);
+    const auto any_view = [&](std::ptrdiff_t stride) {
+        const extent size{roll(0, static_cast<int>(stride)), roll(0, 4)};
+        const bool flipped = roll.one_in(2) && !size.empty();
+        pixel* const first = memory.data() + roll(0, 20) + (flipped ? stride * (size.height - 1) : 0);
+        return image_view<const pixel>(first, size, (flipped ? -stride : stride) * static_cast<std::ptrdiff_t>(sizeof(pixel)));
+    };
+    const auto in_both = [](image_view<const pixel> a, image_view<const pixel> b) {
+        for (int y = 0; y < a.height(); ++y)
+            for (int x = 0; x < a.width(); ++x)
+                for (int v = 0; v < b.height(); ++v)
+                    for (int u = 0; u < b.width(); ++u)
+                        if (&a(x, y) == &b(u, v)) return true;
+        return false;
+    };
+    sweep wrong;
+    int shared = 0, between = 0, apart = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const std::ptrdiff_t stride = roll(1, 9);
+        const image_view<const pixel> a = any_view(stride), b = any_view(stride), other = any_view(stride + 1);
+        const bool expected = in_both(a, b);
+        wrong.unless(share_texels<pixel>(a, b) == expected, "round", round, "stride", stride);
+        wrong.unless(share_texels<pixel>(a, other) || !in_both(a, other), "another stride: round", round);
+        const pixel* const first = std::min(a.row(0), a.row(greater(a.height() - 1, 0)));
+        const pixel* const last = std::max(a.row(0), a.row(greater(a.height() - 1, 0)));
+        const bool among = !a.size().empty() && !b.size().empty() && b.row(0) >= first && b.row(0) < last + a.width();
+        ++(expected ? shared : among ? between : apart);
+    }
+    CHECK(wrong.report() == "");
+    CHECK(shared > 1000);
+    CHECK(between > 100);
+    CHECK(apart > 1000);
+    const image_view<const pixel> repeated(memory.data(), {4, 3}, 0);
+    CHECK(share_texels<pixel>(repeated, repeated));
+    CHECK_FALSE(share_texels<pixel>(repeated, image_view<const pixel>(memory.data() + 4, {4, 3}, 0)));
 }
 
 TEST_CASE("a strided span walks a row or a column or one field of an array of structures") {

@@ -31,14 +31,8 @@ template <kernel Kernel, texel_format Texel, backend_for<Texel, Kernel> Backend>
 void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const tile_grid& tiles,
             filter_scratch<Texel, Kernel>& scratch) noexcept {
     GNOMON_ASSERT(tiles.size().empty() || (tiles.size() == from.size() && tiles.size() == to.size()),
-                  "gnomon: the tile grid and both images must have the same size");
+                  "gnomon: the tile grid and both images must have the same size: make all three from one extent");
     for_each_region_to_filter<Kernel>(tiles, [&](texel_rect r) { run.filter_region(from, to, r, scratch); });
-}
-
-template <kernel Kernel, texel_format Texel, backend_for<Texel, Kernel> Backend>
-void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const depth_tiles& tiles,
-            filter_scratch<Texel, Kernel>& scratch) noexcept {
-    filter(run, from, to, tiles.tiles(), scratch);
 }
 
 /// Receivers one to one on texels: receive(simd<>{}, soft.row_span(y), depths, intensities). See receive/receive.hpp. Depths in codes

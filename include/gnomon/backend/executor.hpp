@@ -120,19 +120,21 @@ void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> fr
 }
 
 /// The next frame: filters what `now` marks into an image that holds what `before` marked, and clears what that leaves behind.
-/// \pre both grids have the same size and tile, or `before` has no tiles
+/// If `now` has another size or tile, all of the map is filtered.
 template <kernel Kernel, texel_format Texel, backend_for<Texel, Kernel> Backend, typename On>
 void refilter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const tile_grid& before,
               const tile_grid& now, band_scratch<Texel, Kernel>& scratch, On&& on) {
     static_assert(detail::executor_is_callable<On>());
     GNOMON_ASSERT(now.size().empty() || (now.size() == from.size() && now.size() == to.size()),
-                  "gnomon: the tile grid and both images must have the same size");
+                  "gnomon: the tile grid and both images must have the same size: make all three from one extent");
     const regions_to_filter<Kernel> marked(now);
+    const bool all = marked.all() || !(same_tiles(before, now) || before.empty() || now.empty());
     const auto left = [&](auto&& f) {
-        if (!marked.all()) for_each_region_left(before, now, Kernel::radius, f);
+        if (!all) for_each_region_left(before, now, Kernel::radius, f);
     };
+    const auto needed = [&](auto&& f) { all ? f(whole(now.size())) : marked(f); };
     const detail::band_cut cleared(left, scratch.size());
-    const detail::band_cut filtered(marked, scratch.size());
+    const detail::band_cut filtered(needed, scratch.size());
     on(greater(cleared.size(), filtered.size()), [&](int band) {
         cleared.for_each(band, [&](texel_rect r) { clear_region(to, r); });
         filtered.for_each(band, [&](texel_rect r) { run.filter_region(from, to, r, scratch[band]); });
@@ -144,11 +146,6 @@ template <kernel Kernel, texel_format Texel, backend_for<Texel, Kernel> Backend,
 void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const tile_grid& tiles,
             band_scratch<Texel, Kernel>& scratch, On&& on) {
     refilter(run, from, to, tile_grid{}, tiles, scratch, on);
-}
-template <kernel Kernel, texel_format Texel, backend_for<Texel, Kernel> Backend, typename On>
-void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const depth_tiles& tiles,
-            band_scratch<Texel, Kernel>& scratch, On&& on) {
-    filter(run, from, to, tiles.tiles(), scratch, on);
 }
 
 /// A whole image of receivers, one to one on the texels of the map, as jobs of an executor; what the three images share is written.

@@ -177,6 +177,7 @@ template <kernel Kernel, int Total> struct in_units {
 /// neighbour. For 8-bit maps, which the lanes of backend/simd.hpp then filter in whole numbers, several times as fast. `binomial` up
 /// to R = 4 is one already, and `tent` of R = 1, 3, 7 and 15.
 template <kernel Kernel> struct eight_bit : detail::in_units<Kernel, 256> {
+    static_assert(kernel_is_sound<Kernel>());
     static_assert(Kernel::radius > 0 && Kernel::radius <= 32,
                   "gnomon: eight_bit<Kernel>: the radius must be 1..32; beyond, 256 units are too few for the weights of a kernel");
 };

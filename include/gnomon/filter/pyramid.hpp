@@ -73,8 +73,8 @@ template <texel_format Texel> class pyramid {
     /// Cost: 4 reads a texel, for a third of the area that is marked or was; and a texel a level for each region of the grid.
     void build(image_view<const Texel> map, const tile_grid& tiles) noexcept {
         if (levels_.empty()) return; // nothing, or one texel
-        const bool fits = map.size() == size() && tiles.size() == size() && tiles.tile() == built_.tile();
-        GNOMON_ASSERT(fits, "gnomon: a pyramid is built for one size of map and of tile");
+        const bool fits = map.size() == size() && same_tiles(tiles, built_);
+        GNOMON_ASSERT(fits, "gnomon: a pyramid is built for one size of map and of tile: make it anew for another");
         if (!fits) return;
         // A texel of a coarse level may lie under several regions. The last of them finds everything below it done.
         const auto halve = [this, map](texel_rect region) {

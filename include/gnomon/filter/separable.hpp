@@ -154,20 +154,20 @@ void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) no
 /// Beyond the map's edge lies clear, never a repeated edge. Unorm results are the exact rational convolution rounded once, halves
 /// upwards. Half and float results are rounded once from a sum within 2^-35 of it, relatively. Clear stays exactly clear, a uniform
 /// region stays exactly itself, and e <= m holds at every texel, the paper's pair in half and float excepted. `scratch` is trusted for nothing.
-/// \pre `from` and `to` do not overlap; an image is not filtered into itself, and asking for it does nothing.
+/// \pre `from` and `to` share no texel; an image is not filtered into itself, and asking for it does nothing.
 /// Cost: 2 (2R+1) multiply-adds a channel of a texel, and half of that for 2R columns beside the region.
 template <kernel Kernel, texel_format Texel>
 void filter_region(std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, texel_rect region,
                    filter_scratch<Texel, Kernel>& scratch) noexcept {
     static_assert(kernel_is_sound<Kernel>());
     region = clip(clip(region, to.size()), from.size());
-    GNOMON_ASSERT(from.data() != to.data() || region.empty(), "gnomon: a filter reads one image and writes another");
-    if (from.data() == to.data()) return;
-    [[maybe_unused]] const auto needed = filter_scratch_size<Texel, Kernel>(region.width());
-    GNOMON_ASSERT(region.empty() || scratch.line().size() >= needed,
-                  "gnomon: the filter's scratch is narrower than the region; make it for the map's width");
+    const bool apart = !share_texels<Texel>(from, to);
+    GNOMON_ASSERT(apart || region.empty(), "gnomon: a filter reads one image and writes another: give it two that share no texel");
+    if (!apart) return;
     // Too narrow a scratch cuts the region into strips; one without room for a single texel leaves it alone.
     const int widest = static_cast<int>(scratch.line().size() / static_cast<std::size_t>(Texel::channels)) - 2 * Kernel::radius;
+    GNOMON_ASSERT(region.empty() || widest > 0,
+                  "gnomon: the filter's scratch has no room for a texel; make it for the map's width");
     if (region.empty() || widest <= 0) return;
     for (int x0 = region.x0; x0 < region.x1; x0 += widest) {
         const int x1 = lesser(region.x1, x0 + widest);

@@ -76,8 +76,8 @@ template <texel_format Texel> void clear_casters(image_view<Texel> casters, cons
     for_each_region_within(tiles, 0, [&](texel_rect r) { clear_region(casters, r); });
 }
 
-/// Clears, of an image that was filtered for `before`, what filtering it for `now` will not write.
-/// \pre both grids have the same size and tile
+/// Clears, of an image that was filtered for `before`, what filtering it for `now` will not write; or all that was written for
+/// `before`, if `now` has another size or tile.
 template <kernel Kernel, texel_format Texel>
 void clear_what_is_left(image_view<Texel> soft, const tile_grid& before, const tile_grid& now) noexcept {
     for_each_region_left(before, now, Kernel::radius, [&](texel_rect r) { clear_region(soft, r); });

@@ -112,7 +112,7 @@ template <state_policy Policy> class backend_of {
     void filter_region(std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, texel_rect region,
                        filter_scratch<Texel, Kernel>& /*ours is on the GPU*/) const noexcept {
         region = clip(clip(region, to.size()), from.size());
-        if (region.empty() || from.data() == to.data()) return;
+        if (region.empty() || share_texels<Texel>(from, to)) return;
         made_->problem = filter_on_gpu<Texel, Kernel>(from, to, region);
         if (!made_->problem) return;
         filter_scratch<Texel, kernel_in_gl<Texel, Kernel>> scratch(from.width());
@@ -162,7 +162,7 @@ template <state_policy Policy> class backend_of {
         (*run)->filter(context_, map->targets(), [&there](auto&& f) { f(there); });
         texel_reader<Texel> reader({around.width(), around.height()});
         reader.read(context_, map->targets().into_soft, to.part({around.x0, around.y0, around.x1, around.y1}), there);
-        return context_.check("filtering an image of the host's");
+        return context_.problem_while("filtering an image of the host's");
     }
 
     /// Uploads a map and receivers, decides about each, and reads back the bits of the intensities: integers are drawable everywhere.
@@ -187,13 +187,14 @@ template <state_policy Policy> class backend_of {
         const auto map = make_texture(context_, format_of<Texel>, map_size);
         if (!map) return map.error();
         write_texels<Texel>(context_, texels.view());
-        if (gl::problem why = context_.check("uploading a map's texels")) return why; // the next texture is made after old errors
+        if (gl::problem why = context_.problem_while("uploading a map's texels"))
+            return why; // the next texture is made after old errors
         const auto where = make_texture(context_, rgba32f_format, lines);
         if (!where) return where.error();
         for (int y = 0; y < lines.height; ++y)
             context_.gl->TexSubImage2D(enums::texture_2d, 0, 0, y, lines.width, 1, enums::rgba, enums::type_float,
                                        &receivers(0, y));
-        if (gl::problem why = context_.check("uploading receivers")) return why;
+        if (gl::problem why = context_.problem_while("uploading receivers")) return why;
         const auto made = make_texture(context_, rg32ui_format, lines);
         if (!made) return made.error();
         const auto into = make_framebuffer(context_, {made->name()});
@@ -202,7 +203,7 @@ template <state_policy Policy> class backend_of {
         std::vector<std::uint32_t> bits(4 * static_cast<std::size_t>(lines.width) * static_cast<std::size_t>(lines.height));
         context_.gl->ReadPixels(0, 0, lines.width, lines.height, enums::rgba_integer, enums::type_unsigned_int, bits.data());
         for (int i = 0; i < count; ++i) intensity[i] = std::bit_cast<float>(bits[4 * static_cast<std::size_t>(i)]);
-        return context_.check("receiving on the host's behalf");
+        return context_.problem_while("receiving on the host's behalf");
     }
 
     gl::context context_;

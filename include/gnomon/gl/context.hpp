@@ -78,7 +78,7 @@ struct context {
     [[nodiscard]] bool lost() const noexcept;
 
     /// Reads GL's error flags, all of them, and says what `doing` met. Empty if no flag was set.
-    [[nodiscard]] problem check(std::string_view doing) const;
+    [[nodiscard]] problem problem_while(std::string_view doing) const;
     /// Reads GL's error flags, so that what another left there is not taken for ours. Returns the first.
     unsigned drop_errors() const noexcept;
 };
@@ -183,7 +183,7 @@ inline unsigned context::drop_errors() const noexcept {
     return first;
 }
 
-inline problem context::check(std::string_view doing) const {
+inline problem context::problem_while(std::string_view doing) const {
     const unsigned error = drop_errors();
     if (error == enums::no_error) return {};
     return problem{"gnomon: " + std::string(doing) + ": " + detail::error_name(error)};

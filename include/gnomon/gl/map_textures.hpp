@@ -41,7 +41,7 @@ class map_textures {
         const state_guard<state_policy::restore> kept(c);
         if (problem why = made.make_all(c, texels, scratch, lent)) return why;
         made.clear(c);
-        if (problem why = c.check("clearing a new map")) return why;
+        if (problem why = c.problem_while("clearing a new map")) return why;
         return made;
     }
 

@@ -109,7 +109,8 @@ using program = object<detail::program_kind>;
     set(enums::texture_wrap_s, enums::clamp_to_edge);
     set(enums::texture_wrap_t, enums::clamp_to_edge);
     set(enums::texture_max_level, 0);
-    if (problem why = c.check("a texture of " + std::to_string(width) + " x " + std::to_string(height) + " " + as.name)) return why;
+    if (problem why = c.problem_while("a texture of " + std::to_string(width) + " x " + std::to_string(height) + " " + as.name))
+        return why;
     return made;
 }
 
@@ -136,7 +137,7 @@ using program = object<detail::program_kind>;
     c.gl->DrawBuffers(count, buffers);
     c.gl->ReadBuffer(count > 0 ? enums::color_attachment0 : enums::none);
     const unsigned status = c.gl->CheckFramebufferStatus(enums::framebuffer);
-    if (problem why = c.check("a framebuffer")) return why;
+    if (problem why = c.problem_while("a framebuffer")) return why;
     if (status != enums::framebuffer_complete)
         return problem{"gnomon: a framebuffer is incomplete, status " + std::to_string(status) +
                        "; these formats cannot be drawn into here"};
@@ -150,7 +151,7 @@ using program = object<detail::program_kind>;
     if (!made) return detail::made_none("buffer");
     c.gl->BindBuffer(enums::array_buffer, made.name());
     c.gl->BufferData(enums::array_buffer, bytes, data, usage);
-    if (problem why = c.check("a buffer of " + std::to_string(bytes) + " bytes")) return why;
+    if (problem why = c.problem_while("a buffer of " + std::to_string(bytes) + " bytes")) return why;
     return made;
 }
 

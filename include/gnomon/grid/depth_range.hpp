@@ -16,6 +16,7 @@ class depth_tiles {
         : tiles_(size, tile), depths_(static_cast<std::size_t>(tiles_.columns()) * static_cast<std::size_t>(tiles_.rows())) {}
 
     [[nodiscard]] const tile_grid& tiles() const noexcept { return tiles_; }
+    operator const tile_grid&() const noexcept { return tiles_; }
 
     /// Marks `r` with its guard band as holding casters in `depth`. An empty interval could be anywhere, so it counts as [0, 1].
     void mark(texel_rect r, depth_interval depth, int guard = 0) noexcept {

@@ -219,8 +219,10 @@ template <typename F> void for_each_region_within(const tile_grid& grid, int rad
     }
 }
 
-/// The same for what `before` needs and `now` does not: what has to be cleared. \pre both have the same size and tile
+/// The same for what `before` needs and `now` does not: what has to be cleared. If `now` has another size or tile, all that `before`
+/// needs.
 template <typename F> void for_each_region_left(const tile_grid& before, const tile_grid& now, int radius, F&& f) {
+    if (!same_tiles(before, now)) return for_each_region_within(before, radius, f);
     radius = greater(radius, 0);
     for (int w = 0; w < words_for(before.columns()); ++w) {
         detail::grown_word was(before, radius, w), is(now, radius, w);

@@ -69,7 +69,7 @@ class tile_grid {
     tile_grid(extent size, int tile)
         : size_{greater(size.width, 0), greater(size.height, 0)}, tile_(greater(tile, 1)), columns_(tiles_along(size_.width)),
           rows_(tiles_along(size_.height)), reached_(columns_, rows_), held_(columns_, rows_) {
-        GNOMON_ASSERT(tile >= 1, "gnomon: a tile is at least one texel wide");
+        GNOMON_ASSERT(tile >= 1, "gnomon: a tile is at least one texel wide; 16 to 64 serve most maps");
     }
 
     [[nodiscard]] extent size() const noexcept { return size_; }
@@ -186,5 +186,10 @@ class tile_grid {
     detail::bit_grid reached_; ///< by marks with their guard bands
     detail::bit_grid held_;    ///< by marks without
 };
+
+/// Are two maps of one size cut into the same tiles?
+[[nodiscard]] inline bool same_tiles(const tile_grid& a, const tile_grid& b) noexcept {
+    return a.size() == b.size() && a.tile() == b.tile();
+}
 
 } // namespace gnomon::inline GNOMON_BUILD

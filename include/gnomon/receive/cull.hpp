@@ -6,15 +6,17 @@
 
 namespace gnomon::inline GNOMON_BUILD {
 
-/// Could any caster shadow a receiver whose texels are `footprint` and whose depths are `depth`, under a bias in this direction?
+/// Could any caster shadow a receiver whose texels are `footprint` and whose depths are `depth`, under this bias?
 ///
 /// False only if every point of it is lit: no marked tile touches it, or it lies before every caster of the tiles it touches. Only
-/// towards light does the second settle it: any other bias may shadow what lies before a caster. One texel is added on each side
-/// for the taps of a blended sample. An empty interval has unknown depth and is not culled by it.
+/// towards light, and not the other way by a depth of its own, does the second settle it: any other bias may shadow what lies before
+/// a caster. One texel is added on each side for the taps of a blended sample. An empty interval has unknown depth and is not culled
+/// by it.
 [[nodiscard]] inline bool casters_reach(const depth_tiles& tiles, texel_rect footprint, depth_interval depth = {},
-                                        bias_towards towards = bias_towards::light) noexcept {
+                                        const bias& by = {}) noexcept {
     const texel_rect read = grow(footprint, 1);
-    return depth.empty() || towards != bias_towards::light ? tiles.touches(read) : tiles.touches(read, depth.farthest);
+    const bool keeps_light = by.towards == bias_towards::light && by.depth >= 0.0f;
+    return depth.empty() || !keeps_light ? tiles.touches(read) : tiles.touches(read, depth.farthest);
 }
 [[nodiscard]] inline bool casters_reach(const tile_grid& tiles, texel_rect footprint) noexcept {
     return tiles.touches(grow(footprint, 1));

@@ -5,6 +5,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -63,8 +64,12 @@ template <typename T> class image_view {
         : data_(data), size_{data != nullptr ? greater(size.width, 0) : 0, data != nullptr ? greater(size.height, 0) : 0},
           stride_(stride) {
         GNOMON_ASSERT(data != nullptr || size.empty(), "gnomon: an image_view that is not empty needs memory");
-        GNOMON_ASSERT(stride % static_cast<std::ptrdiff_t>(alignof(T)) == 0,
+        GNOMON_ASSERT(stride % static_cast<std::ptrdiff_t>(alignof(T)) == 0 &&
+                          reinterpret_cast<std::uintptr_t>(data) % alignof(T) == 0,
                       "gnomon: the rows of an image_view must be aligned for its texels");
+        GNOMON_ASSERT(std::is_const_v<T> || size_.height <= 1 ||
+                          static_cast<std::ptrdiff_t>(sizeof(T)) * size_.width <= (stride < 0 ? -stride : stride),
+                      "gnomon: the rows of an image_view that is written overlap: its stride is in bytes");
     }
     /// Rows that follow each other without a gap.
     image_view(T* data, extent size) noexcept : image_view(data, size, static_cast<std::ptrdiff_t>(sizeof(T)) * size.width) {}
@@ -113,6 +118,28 @@ template <typename T> class image_view {
     extent size_{};
     std::ptrdiff_t stride_ = 0;
 };
+
+/// Have two images a texel in common? Rows that are not as far apart in the one as in the other have, where memory does: no more is
+/// known of them.
+template <typename T> [[nodiscard]] bool share_texels(image_view<const T> a, image_view<const T> b) noexcept {
+    struct bytes {
+        std::uintptr_t first, last, width, stride;
+        explicit bytes(image_view<const T> v) noexcept
+            : width(static_cast<std::size_t>(v.width()) * sizeof(T)),
+              stride(static_cast<std::size_t>(v.stride() < 0 ? -v.stride() : v.stride())) {
+            const T* const ends[] = {v.row(v.stride() < 0 ? v.height() - 1 : 0), v.row(v.stride() < 0 ? 0 : v.height() - 1)};
+            first = reinterpret_cast<std::uintptr_t>(ends[0]);
+            last = reinterpret_cast<std::uintptr_t>(ends[1]) + width;
+        }
+    };
+    if (a.size().empty() || b.size().empty()) return false;
+    const bytes one(a), other(b);
+    if (one.last <= other.first || other.last <= one.first) return false;
+    if (one.stride != other.stride || one.stride < one.width) return true;
+    const auto step = static_cast<std::ptrdiff_t>(one.stride), ahead = static_cast<std::ptrdiff_t>(other.first - one.first);
+    const auto column = static_cast<std::uintptr_t>((ahead % step + step) % step); // where in its rows the other begins
+    return column < one.width || column + other.width > one.stride;
+}
 
 /// An image that owns its memory; every row begins on a 64-byte boundary. Allocates in its constructors and never again.
 /// A negative side counts as zero. A moved-from image is empty.
