@@ -50,13 +50,13 @@ class exact_sum {
         return {significand & 0xFFFFFFFF, significand >> 32, (biased != 0 ? biased : 1) - 1075 + zeros, bits >> 63 != 0};
     }
     void add(std::uint64_t magnitude, int exponent, bool negative) {
-        if (magnitude == 0) return;
         const auto place = static_cast<std::size_t>(exponent - lowest_exponent); // out of range: put() throws
         const auto shift = static_cast<int>(place % 64);
         put(place / 64, magnitude << shift, negative);
         if (shift != 0) put(place / 64 + 1, magnitude >> (64 - shift), negative);
     }
     void put(std::size_t limb, std::uint64_t magnitude, bool negative) {
+        if (magnitude == 0) return;
         if (limb >= limbs_.size()) throw std::out_of_range("exact_sum");
         while (magnitude != 0 && limb < limbs_.size()) {
             std::uint64_t& here = limbs_[limb++];
