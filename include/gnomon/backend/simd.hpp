@@ -54,8 +54,9 @@ bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect re
 } // namespace detail
 
 /// Filters and receives in lanes: simd<> in those the processor has, simd<avx2> and the like in these alone, simd<Yours> in a
-/// simd_isa of your own, which have no target region but what the file is compiled for, and are not asked whether the processor has
-/// them. A name is there on its own processors: neon on ARM, wasm128 in WebAssembly, the others but emulated on x86. Results are those of `scalar`, bit for bit; of a NaN in half or float texels only that it is one.
+/// simd_isa of your own, which is compiled for what the file is, and not asked whether the processor has it. A name is there on its
+/// own processors: neon on ARM, wasm128 in WebAssembly, the others but emulated on x86. Results are those of `scalar`, bit for bit;
+/// of a NaN in half or float texels only that it is one.
 ///
 /// What lanes do not know is left to `scalar`: channels of a user's, radii beyond 256, maps narrower than a register, and of ratios those
 /// whose sums are not exact in double; of decisions see backend/reconstruct.hpp. Too narrow a scratch only cuts a region into

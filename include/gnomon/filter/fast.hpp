@@ -17,10 +17,10 @@ namespace gnomon::inline GNOMON_BUILD {
 ///     half, float  single precision: every product and every sum is rounded, R+2 times a pass
 ///     depth_ratio  in 16 bits weights of ten bits, up to R = 128, and then no error but the two roundings; in 8 bits the kernel as it is
 ///
-/// Weights are within one unit of the kernel's proportions, and these errors are against what such weights give: where a map's depths
-/// differ much, the kernel as it is gives up to a code or two of bytes, and some of words, more or less. e and m are weighed alike, so
-/// that no decision notices. Everything else that a filter promises still holds, in every bit on
-/// every processor: clear stays clear, e <= m, and in unorm a uniform region stays itself. `filter_roundings` tells bias the rest.
+/// Weights are within one unit of the kernel's proportions, and these errors are against what such weights give: by those of the kernel
+/// as it is, bytes may come out a code or two otherwise, and 16-bit codes some more. e and m are weighed alike, so no false shadow
+/// comes of it. Everything else that a filter promises still holds, in every bit on every processor: clear stays clear, e <= m, and in
+/// unorm a uniform region stays itself. `filter_roundings` tells bias the rest.
 template <kernel Kernel> struct fast {
     static constexpr int radius = Kernel::radius;
     static constexpr int total = Kernel::total;
