@@ -29,7 +29,7 @@ int main() {
     filter_scratch<pair, blur> scratch(size.width);
     filter(scalar{}, casters, soft, tiles, scratch);
     int area = 0;
-    for_each_region(tiles.tiles(), [&area](texel_rect r) { area += r.width() * r.height(); });
+    for_each_region(tiles, [&area](texel_rect r) { area += r.width() * r.height(); });
     std::printf("filtered %d of %d texels\n", area, size.width * size.height);
 
     // cull: receivers beside the disc, before it, and behind it

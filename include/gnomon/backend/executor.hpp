@@ -127,12 +127,11 @@ void refilter(const Backend& run, std::type_identity_t<image_view<const Texel>> 
     static_assert(detail::executor_is_callable<On>());
     GNOMON_ASSERT(now.size().empty() || (now.size() == from.size() && now.size() == to.size()),
                   "gnomon: the tile grid and both images must have the same size: make all three from one extent");
-    const regions_to_filter<Kernel> marked(now);
-    const bool all = marked.all() || !(same_tiles(before, now) || before.empty() || now.empty());
+    const bool comparable = same_tiles(before, now) || before.empty() || now.empty();
+    const regions_to_filter<Kernel> needed(now, !comparable);
     const auto left = [&](auto&& f) {
-        if (!all) for_each_region_left(before, now, Kernel::radius, f);
+        if (!needed.all()) for_each_region_left(before, now, Kernel::radius, f);
     };
-    const auto needed = [&](auto&& f) { all ? f(whole(now.size())) : marked(f); };
     const detail::band_cut cleared(left, scratch.size());
     const detail::band_cut filtered(needed, scratch.size());
     on(greater(cleared.size(), filtered.size()), [&](int band) {

@@ -30,14 +30,14 @@ template <typename Walk> [[nodiscard]] std::int64_t texels_in(Walk&& walk) {
 } // namespace detail
 
 /// What a filter of this kernel has to write: all texels within its radius of a mark, whatever the guard bands; or the whole map,
-/// where that is cheaper. Elsewhere its result is clear. The grid is looked at again by each call.
+/// where that is cheaper, or asked for. Elsewhere its result is clear. The grid is looked at again by each call.
 template <kernel Kernel> class regions_to_filter {
   public:
-    explicit regions_to_filter(const tile_grid& tiles) noexcept : tiles_(tiles) {
+    explicit regions_to_filter(const tile_grid& tiles, bool all = false) noexcept : tiles_(tiles) {
         // So many texels could they be at most; most frames are settled by that.
         const double side = 1.0 * tiles.tile() + 2 * Kernel::radius;
-        whole_ = !tiles.size().empty() && detail::is_dense(side * side * tiles.held_count(), tiles.size()) &&
-                 detail::is_dense(static_cast<double>(detail::texels_in(*this)), tiles.size());
+        whole_ = !tiles.size().empty() && (all || (detail::is_dense(side * side * tiles.held_count(), tiles.size()) &&
+                                                   detail::is_dense(static_cast<double>(detail::texels_in(*this)), tiles.size())));
     }
     /// Is it the whole map?
     [[nodiscard]] bool all() const noexcept { return whole_; }

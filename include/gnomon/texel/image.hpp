@@ -127,9 +127,10 @@ template <typename T> [[nodiscard]] bool share_texels(image_view<const T> a, ima
         explicit bytes(image_view<const T> v) noexcept
             : width(static_cast<std::size_t>(v.width()) * sizeof(T)),
               stride(static_cast<std::size_t>(v.stride() < 0 ? -v.stride() : v.stride())) {
-            const T* const ends[] = {v.row(v.stride() < 0 ? v.height() - 1 : 0), v.row(v.stride() < 0 ? 0 : v.height() - 1)};
-            first = reinterpret_cast<std::uintptr_t>(ends[0]);
-            last = reinterpret_cast<std::uintptr_t>(ends[1]) + width;
+            const auto top = reinterpret_cast<std::uintptr_t>(v.row(0)),
+                       bottom = reinterpret_cast<std::uintptr_t>(v.row(v.height() - 1));
+            first = lesser(top, bottom);
+            last = greater(top, bottom) + width;
         }
     };
     if (a.size().empty() || b.size().empty()) return false;
