@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 
@@ -18,6 +19,9 @@ class sweep {
         ++tried_;
         if (holds) return;
         if (wrong_++ == 0) first_ = sentence(words...);
+#if defined(GNOMON_TEST_STOPS_AT_FIRST) // mutation asks whether one is wrong, and not how many
+        throw std::runtime_error(report());
+#endif
     }
     /// The same for cases by the billion: `cases(check)` calls check(holds, words...) for each. They are only counted; words are
     /// looked for in a second round, which begins if one is wrong.
