@@ -87,17 +87,23 @@ class Crowd:
         others = [t for t in near if t not in own]
         if self.options:
             others = [] if own else sorted(callers, key=lambda t: t.path.stat().st_size)[:1]
-        for tests in (own,) if own_alone else (own, others, all_lanes): # those behind are compiled if there is need
+        for tests in (own,) if own_alone else (own, others, all_lanes):
             if tests is not own and own and not passed:
                 break # what none of its own calls is computed by the compiler, as constants are
-            todo = {part for t in tests for part in self.program(t).parts}
-            while todo:
+            todo = {part for t in tests if t in self.programs for part in self.program(t).parts}
+            waiting = sorted((t for t in tests if t not in self.programs), key=lambda t: t.likelihood(self.header))
+            while todo or waiting:
+                if not todo: # one more is compiled if those that are have passed
+                    todo |= set(self.program(waiting.pop()).parts)
+                    continue
                 part = self.last if self.last in todo else max(todo, key=lambda part: part.promise(self.header))
                 todo.remove(part)
                 if number not in part.program.numbers:
                     continue
                 answer, said, called = part.run(number)
                 passed |= {part.program.test} if called else set()
+                if called:
+                    part.program.test.count(self.header, answer != SURVIVED)
                 if answer != SURVIVED:
                     self.last = part # the next mutant stands beside this one
                     return (answer, said), passed

@@ -1,4 +1,5 @@
 // Receivers whose depth is a code of 16 bits, and intensities in codes: decided as whole numbers are, and rounded once.
+#include <gnomon/receive/decide.hpp>
 #include <gnomon/receive/receive.hpp>
 
 #include "../support/dice.hpp"
