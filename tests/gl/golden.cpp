@@ -1,3 +1,5 @@
+#include <gnomon/receive/decide.hpp> // which is printed in them
+
 #include "golden_texts.hpp"
 
 #include <doctest/doctest.h>
