@@ -245,6 +245,15 @@ def ask_each(tree, header, tests, overlay, work, passed):
     return SURVIVED, ""
 
 
+def misused(tree, header, overlay):
+    """The first misuse that compiles, or is refused for another reason; or nothing."""
+    check = ["cmake", f"-DCOMPILE={tree.compiler};-std=c++20;-I{overlay};-I{tree.include}", "-P", tree.tests / "compile_fail/check.cmake"]
+    for refusal in tree.refusals:
+        if header in refusal.reaches and limited(120, [check[0], f"-DSOURCE={refusal.path}", *check[1:]]).returncode != 0:
+            return refusal.name
+    return ""
+
+
 def judge(tree, header, mutant, near):
     """The answer for one mutant: the first test that turns red, or that none does."""
     answer, passed, sanitized = ((SURVIVED, ""), set(), set()) if tree.alone else tree.ask_together(header, mutant)
@@ -255,6 +264,8 @@ def judge(tree, header, mutant, near):
         overlay = work / "include"
         (overlay / header).parent.mkdir(parents=True)
         (overlay / header).write_text(mutant.text)
+        if mutant.before.lstrip().startswith("static_assert") and (said := misused(tree, header, overlay)):
+            return FOUND_BY_COMPILER, said
         concerned = tree.concerned(header)
         of_folder = {t for t in concerned if t.is_near(header)}
         answer = ask_each(tree, header, set(of_folder), overlay, work, passed)
@@ -266,10 +277,8 @@ def judge(tree, header, mutant, near):
             answer = ask(tree, test, overlay, work, SANITIZERS)
             if answer[0] != SURVIVED:
                 return answer
-        check = ["cmake", f"-DCOMPILE={tree.compiler};-std=c++20;-I{overlay};-I{tree.include}", "-P", tree.tests / "compile_fail/check.cmake"]
-        for refusal in tree.refusals:
-            if header in refusal.reaches and limited(120, [check[0], f"-DSOURCE={refusal.path}", *check[1:]]).returncode != 0:
-                return FOUND_BY_COMPILER, refusal.name
+        if said := misused(tree, header, overlay):
+            return FOUND_BY_COMPILER, said
         return ask_each(tree, header, concerned - of_folder, overlay, work, set())
 
 
