@@ -128,7 +128,7 @@ class Crowd:
         blamed = True
         while blamed:
             (self.overlay / self.header).write_text(self.together.write())
-            done = limited(600, [*command, "-fsyntax-only"])
+            done = limited(120, [*command, "-fsyntax-only"])
             blamed = self.together.to_blame(self.header, done.stderr)
             self.together.drop(blamed)
         code = program.path.with_suffix(".o")

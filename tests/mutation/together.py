@@ -40,6 +40,9 @@ def is_body(tokens, i):
         return tokens[opening - 1].text != "requires"
     if tokens[i - 1].text in BODY_AFTER:
         return True
+    if tokens[i - 1].text == "]": # of a lambda without parameters, not of an array
+        opening = next(k for k in range(i - 1, -1, -1) if tokens[k].text == "[" and closing(tokens, k) == i - 1)
+        return tokens[opening - 1].text in ("=", "(", ",", "{", ";", "return")
     for k in range(i - 1, max(i - 12, 0), -1): # -> type {
         if tokens[k].text == "->":
             return tokens[k - 1].text in (")", "noexcept", "mutable")
