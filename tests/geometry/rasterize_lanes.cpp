@@ -158,6 +158,16 @@ TEST_CASE_TEMPLATE("without asserts, triangles for lanes that the processor has 
 }
 #endif
 
+TEST_CASE("triangles are drawn in the lanes that are named") {
+    mesh_data m;
+    m.add({-1.0, 0.0, -1.0}, {1.0, 0.0, -1.0}, {0.0, 0.0, 1.0});
+    directional_light sun({0.0, -1.0, 0.0});
+    sun.add_caster(bounding_box{{-1, 0, -1}, {1, 0, 1}});
+    test::counted_lanes::loads = 0;
+    CHECK(draw(simd<test::counted_lanes>{}, m.mesh(), sun.frame(map_size, 1), everywhere, faces::both).texels.size() > 1000);
+    CHECK(test::counted_lanes::loads > 0);
+}
+
 TEST_CASE("lanes skip the triangles that a place for them does not touch, as the scalar rasteriser does") {
     dice roll{std::mt19937_64(32)};
     std::size_t skipped = 0;

@@ -35,6 +35,10 @@ gl::surface any_surface(dice& roll, extent size) {
     const auto depth = [&] { return roll.one_in(4) ? odd[roll(0, 8)] : roll.unit(); };
     return {.where = clip(roll.rect(size, 5), size), .depth = depth(), .opacity = static_cast<float>(roll(-2, 18)) / 16.0f};
 }
+
+template <typename Texel>
+concept bounded = requires(gl::passes<Texel, box<1>> p, const gl::context& c, const gl::map_targets& map) { p.bound(c, map, 0); };
+static_assert(bounded<gnomon::rgb8> && !bounded<gnomon::rg8>);
 } // namespace
 
 TEST_CASE_TEMPLATE("casters and far bounds on GL are the texels that scalar casts and bounds", Texel, gnomon::rg8, gnomon::rg16,
