@@ -41,3 +41,7 @@ TEST_CASE("a rule in uniforms declares those of a far bound for texels that have
     }
     CHECK(declares(std::type_identity<gnomon::rg8>{}, "gnomon_caster_bias"));
 }
+
+template <typename Texel>
+concept bounded = requires { gnomon::gl::bound_rectangles_text<Texel>(); };
+static_assert(bounded<gnomon::rgb8> && !bounded<gnomon::rg8>);

@@ -5,7 +5,9 @@
 
 #include <gnomon/gl/shader_filter.hpp>
 
+#include <array>
 #include <cstdint>
+#include <string>
 #include <type_traits>
 
 #include "../support/glsl_begin.inl"
@@ -225,3 +227,22 @@ TEST_CASE("a narrow filter rounds to the map's own format between the passes, in
     compare<rgba8, narrow<box<1>>>(NARROW(rgba8_narrow));
     compare<rg16f, narrow<tent<2>>>(NARROW(rg16f_narrow));
 }
+
+namespace {
+template <int Total> struct three_taps {
+    static constexpr int radius = 1, total = Total;
+    static constexpr std::array weights{1, Total - 2, 1};
+};
+} // namespace
+
+TEST_CASE("a sum takes two words from where one might not hold it and the half that rounds it") {
+    const auto words = [](const std::string& text) { return text.find("as two words") != std::string::npos ? 2 : 1; };
+    static_assert((255ull * 4100 * 4100 + 4100 * 4100 / 2) >> 32 == 0 && (255ull * 4101 * 4101 + 4101 * 4101 / 2) >> 32 == 1);
+    CHECK(words(gl::filter_rows_text<rg8, three_taps<4100>>()) == 1);
+    CHECK(words(gl::filter_rows_text<rg8, three_taps<4101>>()) == 2);
+}
+
+// So the scratch has as many bits as the sums between the passes need.
+static_assert(gl::filter_scratch_largest<rg16, fast<gaussian<4>>> == 65535);
+static_assert(gl::filter_scratch_largest<rg8, three_taps<257>> == 65535 &&
+              gl::filter_scratch_largest<rg8, three_taps<258>> > 65535);
