@@ -53,10 +53,11 @@ template <typename Backend> void add_small(const std::string& how) {
     });
     const auto add_receive = [&how](const char* name, int calls) {
         benchmark::RegisterBenchmark((how + name).c_str(), [calls](benchmark::State& state) {
-            const image<rg8> map(size, rg8::caster(0.25f));
-            const image<float> z(size, 0.5f);
-            image<float> intensity(size);
-            const int count = size.width * size.height / calls;
+            constexpr extent row{size.width * size.height, 1};
+            const image<rg8> map(row, rg8::caster(0.25f));
+            const image<float> z(row, 0.5f);
+            image<float> intensity(row);
+            const int count = row.width / calls;
             for ([[maybe_unused]] auto _ : state) {
                 for (int i = 0; i < calls; ++i)
                     Backend{}.receive(strided_span(&map(0, 0) + i * count, count), strided_span(&z(0, 0) + i * count, count),

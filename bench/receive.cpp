@@ -37,32 +37,30 @@ template <typename F> void add(const std::string& what, const char* format, int 
 
 std::size_t square(int size) { return static_cast<std::size_t>(size) * static_cast<std::size_t>(size); }
 
-/// One row of so many, its first element on a boundary of 64 bytes, as an engine's buffers are. \pre size is a multiple of 64
-template <typename T> strided_span<T> row_of(image<T>& memory) {
-    return {&memory(0, 0), memory.size().width * memory.size().height};
-}
-template <typename T> strided_span<const T> row_of(const image<T>& memory) {
-    return {&memory(0, 0), memory.size().width * memory.size().height};
-}
+/// An image of so many squared in one row, which begins on a boundary of 64 bytes, as engines' buffers do; and all of such a row.
+template <typename T> image<T> make_row(int size) { return image<T>({size * size, 1}); }
+template <typename T> strided_span<T> row_of(image<T>& memory) { return memory.view().row_span(0); }
+template <typename T> strided_span<const T> row_of(const image<T>& memory) { return memory.view().row_span(0); }
 
 /// Penumbrae and receivers without any order, so that a branch cannot learn who is in shadow.
 template <typename Texel, typename Depth> struct scene {
     image<Texel> texels;
     image<Depth> z;
 
-    explicit scene(int size) : texels({size, size}), z({size, size}) {
+    explicit scene(extent size) : texels(size), z({size.width * size.height, 1}) {
         std::mt19937 dice(1);
         const auto unit = [&dice] { return static_cast<double>(dice()) * 0x1p-32; };
-        for (int y = 0; y < size; ++y)
-            for (int x = 0; x < size; ++x) {
+        int next = 0;
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 0; x < size.width; ++x, ++next) {
                 const double mask = unit();
                 texels(x, y).stored[Texel::mask_index] = Texel::channel_type::encode(mask);
                 texels(x, y).stored[Texel::depth_index] = Texel::channel_type::encode(mask * unit());
                 const double depth = unit();
                 if constexpr (std::same_as<Depth, float>)
-                    z(x, y) = static_cast<float>(depth);
+                    z(next, 0) = static_cast<float>(depth);
                 else
-                    z(x, y) = unorm16::encode(depth);
+                    z(next, 0) = unorm16::encode(depth);
             }
     }
 };
@@ -73,8 +71,8 @@ constexpr std::size_t bytes_of = sizeof(Texel) + sizeof(Depth) + sizeof(Intensit
 template <typename Backend, typename Texel, typename Depth, typename Intensity>
 void add_ours(const char* what, const char* format, int size) {
     add(what, format, size, square(size) * bytes_of<Texel, Depth, Intensity>, [size](benchmark::State& state) {
-        const scene<Texel, Depth> from(size);
-        image<Intensity> intensity({size, size});
+        const scene<Texel, Depth> from({size * size, 1});
+        auto intensity = make_row<Intensity>(size);
         for ([[maybe_unused]] auto _ : state) {
             receive(Backend{}, row_of(from.texels), row_of(from.z), row_of(intensity));
             benchmark::ClobberMemory();
@@ -98,22 +96,22 @@ template <typename Texel, typename Depth, typename Intensity> void add_format(co
 /// Positions as a camera sees them: neighbours are neighbours, a texel or so apart, and no row of them is a row of the map.
 struct turned {
     image<float> x, y;
-    explicit turned(int size) : x({size, size}), y({size, size}) {
+    explicit turned(int size) : x(make_row<float>(size)), y(make_row<float>(size)) {
         const float middle = static_cast<float>(size) / 2.0f;
         for (int j = 0; j < size; ++j)
             for (int i = 0; i < size; ++i) {
                 const float right = static_cast<float>(i) - middle, down = static_cast<float>(j) - middle;
-                x(i, j) = middle + 0.6f * right - 0.3f * down;
-                y(i, j) = middle + 0.3f * right + 0.6f * down;
+                x(j * size + i, 0) = middle + 0.6f * right - 0.3f * down;
+                y(j * size + i, 0) = middle + 0.3f * right + 0.6f * down;
             }
     }
 };
 
 template <typename Backend> void add_points(const char* what, int size) {
     add(what, "u8x2.f32", size, square(size) * 16, [size](benchmark::State& state) {
-        const scene<rg8, float> from(size);
+        const scene<rg8, float> from({size, size});
         const turned at(size);
-        image<float> intensity({size, size});
+        auto intensity = make_row<float>(size);
         for ([[maybe_unused]] auto _ : state) {
             receive(Backend{}, from.texels.view(), row_of(at.x), row_of(at.y), row_of(from.z), row_of(intensity));
             benchmark::ClobberMemory();
@@ -124,21 +122,20 @@ template <typename Backend> void add_points(const char* what, int size) {
 /// Where gathers find what receivers need, in bytes; what else receivers read is only added up, and what they compute left out.
 struct offsets {
     image<int> at, other, more;
-    explicit offsets(int size) : at({size, size}), other({size, size}), more({size, size}) {
+    explicit offsets(int size) : at(make_row<int>(size)), other(make_row<int>(size)), more(make_row<int>(size)) {
         const turned p(size);
         const image<rg8> map({size, size});
-        for (int j = 0; j < size; ++j)
-            for (int i = 0; i < size; ++i)
-                at(i, j) = static_cast<int>(map.view().stride()) * static_cast<int>(p.y(i, j) - 0.5f) +
-                           2 * static_cast<int>(p.x(i, j) - 0.5f);
+        for (int i = 0; i < size * size; ++i)
+            at(i, 0) =
+                static_cast<int>(map.view().stride()) * static_cast<int>(p.y(i, 0) - 0.5f) + 2 * static_cast<int>(p.x(i, 0) - 0.5f);
     }
 };
 
 template <typename F> void add_gathers(const char* what, int size, F&& gather_twice) {
     add(what, "u8x2.f32", size, square(size) * 16, [size, gather_twice](benchmark::State& state) {
-        const scene<rg8, float> from(size);
+        const scene<rg8, float> from({size, size});
         const offsets where(size);
-        image<int> found({size, size});
+        auto found = make_row<int>(size);
         const auto* map = reinterpret_cast<const char*>(&from.texels(0, 0));
         for ([[maybe_unused]] auto _ : state) {
             gather_twice(map, from.texels.view().stride(), where, &found(0, 0), size * size);
@@ -193,14 +190,14 @@ void add_opencv([[maybe_unused]] int size) {
 #if GNOMON_BENCH_OPENCV
     add("opencv", "f32x2.f32", size, square(size) * bytes_of<rg32f, float, float>, [size](benchmark::State& state) {
         cv::setNumThreads(1);
-        const scene<rg32f, float> from(size);
+        const scene<rg32f, float> from({size, size});
         cv::Mat e(size, size, CV_32F), m(size, size, CV_32F), z(size, size, CV_32F), s(size, size, CV_32F),
             shadowed(size, size, CV_8U), intensity(size, size, CV_32F);
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {
                 e.at<float>(y, x) = from.texels(x, y).stored[0];
                 m.at<float>(y, x) = from.texels(x, y).stored[1];
-                z.at<float>(y, x) = from.z(x, y);
+                z.at<float>(y, x) = from.z(y * size + x, 0);
             }
         for ([[maybe_unused]] auto _ : state) {
             cv::divide(e, m, s);

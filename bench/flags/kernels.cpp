@@ -36,24 +36,29 @@ template <typename Texel> scene<Texel>& scene_of() {
     static scene<Texel> one;
     return one;
 }
-template <typename T> strided_span<T> all_of(image<T>& memory) { return {&memory(0, 0), size.width * size.height}; }
 
 template <typename Texel, kernel Kernel> void blur() {
     static filter_scratch<Texel, Kernel> scratch(size.width);
     scene<Texel>& s = scene_of<Texel>();
     simd<>{}.filter_region(s.map.view(), s.soft.view(), whole(size), scratch);
 }
+/// Row by row.
+template <typename... Images> void receive_rows(Images&... images) {
+    for (int y = 0; y < size.height; ++y) receive(simd<>{}, images.view().row_span(y)...);
+}
 template <typename Texel> void decide() {
     scene<Texel>& s = scene_of<Texel>();
-    receive(simd<>{}, all_of(s.map), all_of(s.z), all_of(s.intensity));
+    receive_rows(s.map, s.z, s.intensity);
 }
 void decide_codes() {
     scene<rg8>& s = scene_of<rg8>();
-    receive(simd<>{}, all_of(s.map), all_of(s.z16), all_of(s.intensity8));
+    receive_rows(s.map, s.z16, s.intensity8);
 }
 void decide_at_points() {
     scene<rg8>& s = scene_of<rg8>();
-    receive(simd<>{}, s.map.view(), all_of(s.x), all_of(s.y), all_of(s.z), all_of(s.intensity));
+    for (int y = 0; y < size.height; ++y)
+        receive(simd<>{}, s.map.view(), s.x.view().row_span(y), s.y.view().row_span(y), s.z.view().row_span(y),
+                s.intensity.view().row_span(y));
 }
 
 constexpr flags::kernel kernels[] = {

@@ -142,8 +142,9 @@ template <typename T> [[nodiscard]] bool share_texels(image_view<const T> a, ima
     return column < one.width || column + other.width > one.stride;
 }
 
-/// An image that owns its memory; every row begins on a 64-byte boundary. Allocates in its constructors and never again.
-/// A negative side counts as zero. A moved-from image is empty.
+/// An image that owns its memory. Every row begins on a 64-byte boundary, and an odd number of cache lines behind the one above: of rows
+/// whose distance is a power of two a first cache may hold no more than eight, where nine taps read twelve.
+/// Allocates in its constructors and never again. A negative side counts as zero. A moved-from image is empty.
 template <typename T> class image {
     static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 64,
                   "gnomon: image<T> holds plain texels: T must be trivially copyable");
@@ -182,7 +183,8 @@ template <typename T> class image {
     };
 
     [[nodiscard]] static std::size_t lines_of(int width) noexcept {
-        return (static_cast<std::size_t>(width) * sizeof(T) + sizeof(line) - 1) / sizeof(line);
+        const std::size_t filled = (static_cast<std::size_t>(width) * sizeof(T) + sizeof(line) - 1) / sizeof(line);
+        return filled | static_cast<std::size_t>(filled > 0);
     }
     [[nodiscard]] std::ptrdiff_t stride() const noexcept { return static_cast<std::ptrdiff_t>(lines_per_row_ * sizeof(line)); }
 
