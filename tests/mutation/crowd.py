@@ -102,8 +102,8 @@ class Crowd:
                 if number not in part.program.numbers:
                     continue
                 answer, said, called = part.run(number)
-                passed |= {part.program.test} if called else set()
                 if called:
+                    passed.add(part.program.test)
                     part.program.test.count(self.header, answer != SURVIVED)
                 if answer != SURVIVED:
                     self.last = part # the next mutant stands beside this one

@@ -67,6 +67,11 @@ def closing(tokens, i):
     return len(tokens) - 1
 
 
+def opening(tokens, i):
+    """The index of the bracket that tokens[i] closes."""
+    return next(k for k in range(i - 1, -1, -1) if tokens[k].text in OPEN and closing(tokens, k) == i)
+
+
 def split(tokens, begin, end, mark=";"):
     """Ranges between the marks that stand outside all brackets of tokens[begin:end], up to a bracket that closes one around it."""
     ranges, i, first = [], begin, begin

@@ -149,8 +149,8 @@ class Tree:
                             for quote, name in INCLUDE.findall(p.read_text())
                             if quote == "<" and name not in self.headers and not name.endswith((".h", "main.hpp"))}
                 (folder / "all.hpp").write_text("".join(f"#include <{name}>\n" for name in sorted(standard)))
-                line = [self.compiler, "-std=c++20", "-w", "-D_GLIBCXX_ASSERTIONS", "-DGNOMON_TEST_STOPS_AT_FIRST", "-ftrivial-auto-var-init=pattern", *options, "-fuse-ld=lld",
-                        f'-DGNOMON_TEST_DATA="{self.tests}/data"']
+                line = [self.compiler, "-std=c++20", "-w", "-D_GLIBCXX_ASSERTIONS", "-DGNOMON_TEST_STOPS_AT_FIRST",
+                        "-ftrivial-auto-var-init=pattern", *options, "-fuse-ld=lld", f'-DGNOMON_TEST_DATA="{self.tests}/data"']
                 subprocess.run([*line, "-x", "c++-header", "-fpch-instantiate-templates", folder / "all.hpp", "-o", folder / "all.pch"], check=True)
                 subprocess.run([*line, "-c", self.tests / "main.cpp", "-o", folder / "main.o"], check=True)
                 self.flavours[options] = [*line, "-include-pch", folder / "all.pch"], [*line, folder / "main.o"]
@@ -264,7 +264,8 @@ def judge(tree, header, mutant, near):
         overlay = work / "include"
         (overlay / header).parent.mkdir(parents=True)
         (overlay / header).write_text(mutant.text)
-        if mutant.before.lstrip().startswith("static_assert") and (said := misused(tree, header, overlay)):
+        is_refusal = mutant.before.lstrip().startswith("static_assert")
+        if is_refusal and (said := misused(tree, header, overlay)):
             return FOUND_BY_COMPILER, said
         concerned = tree.concerned(header)
         of_folder = {t for t in concerned if t.is_near(header)}
@@ -277,7 +278,7 @@ def judge(tree, header, mutant, near):
             answer = ask(tree, test, overlay, work, SANITIZERS)
             if answer[0] != SURVIVED:
                 return answer
-        if said := misused(tree, header, overlay):
+        if not is_refusal and (said := misused(tree, header, overlay)):
             return FOUND_BY_COMPILER, said
         return ask_each(tree, header, concerned - of_folder, overlay, work, set())
 

@@ -8,7 +8,7 @@ import collections
 import dataclasses
 import re
 
-from mutants import closing, is_expression, split, tokens_of
+from mutants import closing, is_expression, opening, split, tokens_of
 
 AWAKE = """#ifndef GNOMON_AWAKE
 #include <cstdio>
@@ -36,13 +36,11 @@ NO_CHOICE = {"case", "default", "public", "private", "else", "template", "struct
 def is_body(tokens, i):
     """Does tokens[i], a brace, open a list of statements? Lists of values, classes, namespaces and requirements are none."""
     if tokens[i - 1].text == ")":
-        opening = next(k for k in range(i - 1, -1, -1) if tokens[k].text == "(" and closing(tokens, k) == i - 1)
-        return tokens[opening - 1].text != "requires"
+        return tokens[opening(tokens, i - 1) - 1].text != "requires"
     if tokens[i - 1].text in BODY_AFTER:
         return True
     if tokens[i - 1].text == "]": # of a lambda without parameters, not of an array
-        opening = next(k for k in range(i - 1, -1, -1) if tokens[k].text == "[" and closing(tokens, k) == i - 1)
-        return tokens[opening - 1].text in ("=", "(", ",", "{", ";", "return")
+        return tokens[opening(tokens, i - 1) - 1].text in ("=", "(", ",", "{", ";", "return")
     for k in range(i - 1, max(i - 12, 0), -1): # -> type {
         if tokens[k].text == "->":
             return tokens[k - 1].text in (")", "noexcept", "mutable")
