@@ -107,9 +107,9 @@ TEST_CASE("a real driver's complaint about a shader reaches the message") {
         REQUIRE_FALSE(made);
         CHECK(made.error().sentence.find("gnomon: the driver rejects the fragment shader: ") == 0);
         CHECK(made.error().sentence.find("sundial") != std::string::npos);
-        const auto unlinked =
-            gl::make_program(c, version + "out highp vec2 passed;\nvoid main() { passed = vec2(0); gl_Position = vec4(0); }\n",
-                             version + "in highp vec4 passed;\nout highp vec4 color;\nvoid main() { color = passed; }\n");
+        const auto unlinked = gl::make_program(
+            c, vertex,
+            version + "out highp vec4 color;\nhighp vec4 defined_nowhere();\nvoid main() { color = defined_nowhere(); }\n");
         REQUIRE_FALSE(unlinked);
         CHECK(unlinked.error().sentence.find("gnomon: the driver does not link the program: ") == 0);
     });

@@ -136,7 +136,7 @@ TEST_CASE_TEMPLATE("GL decides at points as scalar does: whole codes in every bi
         }
         test::gl_report(test::format_name<Texel>(), "decisions at points", 6 * count, found.decisions);
         CHECK(found.decisions == 0);
-        CHECK(found.most <= 0x1p-24f);
+        CHECK(found.most <= (Texel::linear_scale > 255.0 ? 0x1p-24f : 0.0f)); // a float holds a blend of bytes
     });
 }
 

@@ -58,8 +58,9 @@ class truth {
 
 /// A float in GLSL. The few sums and products with a literal that change nothing are not written.
 ///
-/// A comparison with a product is exact, as it is in doubles: it is written as a call of gnomon_exceeds, see shader_exact.hpp. All else
-/// is single precision, so a formula has to be exact in that, or say what it loses.
+/// A comparison with a product is exact, as it is in doubles, and a quotient by a literal the nearest float: they are written as calls of
+/// gnomon_exceeds and gnomon_divide, see shader_exact.hpp. All else is single precision, so a formula has to be exact in that, or say what
+/// it loses.
 ///
 /// A wide number is a vec2 whose components are to be added, see exceeds_blend_text. It stays wide where another is added or subtracted,
 /// and is compared exactly with a product of one; all else makes a float of it.
@@ -105,6 +106,7 @@ class number {
     }
     [[nodiscard]] friend number operator/(const number& a, const number& b) {
         if (b.is(1.0f)) return a;
+        if (b.value_) return number("gnomon_divide(" + a.one().text_ + ", " + b.text_ + ')', a, b, binding::product);
         return number(a.one().within(binding::product) + " / " + b.one().within(binding::name), a, b, binding::product);
     }
 

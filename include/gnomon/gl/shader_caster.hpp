@@ -75,7 +75,7 @@ template <texel_format Texel> consteval void check_texel() {
 inline constexpr std::string_view encode_unorm_text = R"(
 // the code nearest to @scale v, halves upwards; 0 if v is not a number
 float gnomon_code(float v) {
-    if (!(v > 0.0)) return 0.0;
+    if (!gnomon_is_number(v) || v <= 0.0) return 0.0;
     if (v >= 1.0) return @scale;
     float code = floor(@scale * v + 0.5); // or one more: rounding keeps the order, so never less
     return gnomon_exceeds(-@scale, v, 0.5 - code) ? code - 1.0 : code;
@@ -84,15 +84,15 @@ float gnomon_code(float v) {
 inline constexpr std::string_view complement_unorm_text = R"(
 // the code nearest to @scale (1 - z); the only tie is half way, and goes upwards
 float gnomon_complement(float z) {
-    if (!(z < 1.0)) return 0.0;
+    if (!gnomon_is_number(z) || z >= 1.0) return 0.0;
     return z == 0.5 ? @half : @scale - gnomon_code(z);
 }
 )";
 inline constexpr std::string_view complement_ratio_text = R"(
 // the largest code that is not nearer to the light than z
 float gnomon_complement(float z) {
-    if (!(z < 1.0)) return 0.0;
-    if (!(z > 0.0)) return @scale;
+    if (!gnomon_is_number(z) || z >= 1.0) return 0.0;
+    if (z <= 0.0) return @scale;
     float code = floor(@scale - @scale * z); // or one more: rounding keeps the order, so never less
     return gnomon_exceeds(@scale, z, @scale - code) ? code - 1.0 : code;
 }
@@ -100,14 +100,14 @@ float gnomon_complement(float z) {
 inline constexpr std::string_view encode_half_text = R"(
 // the half nearest to v
 float gnomon_code(float v) {
-    if (!(v > 0.0)) return 0.0;
+    if (!gnomon_is_number(v) || v <= 0.0) return 0.0;
     return v < 1.0 ? gnomon_half(v) : 1.0;
 }
 
 // the half nearest to 1 - z, which a float cannot tell for all z before 1/2; whole numbers of 2^-25 can
 float gnomon_complement(float z) {
-    if (!(z < 1.0)) return 0.0;
-    if (!(z > 0.0)) return 1.0;
+    if (!gnomon_is_number(z) || z >= 1.0) return 0.0;
+    if (z <= 0.0) return 1.0;
     if (z >= 0.5) return gnomon_half(1.0 - z);
     float units = z * 16777216.0;
     uint whole = uint(units), more = float(whole) < units ? 1u : 0u;
@@ -116,12 +116,12 @@ float gnomon_complement(float z) {
 )";
 inline constexpr std::string_view encode_float_text = R"(
 float gnomon_code(float v) {
-    if (!(v > 0.0)) return 0.0;
+    if (!gnomon_is_number(v) || v <= 0.0) return 0.0;
     return v < 1.0 ? v : 1.0;
 }
 
 float gnomon_complement(float z) {
-    if (!(z < 1.0)) return 0.0;
+    if (!gnomon_is_number(z) || z >= 1.0) return 0.0;
     return z > 0.0 ? 1.0 - z : 1.0;
 }
 )";
@@ -131,12 +131,12 @@ template <texel_format Texel> [[nodiscard]] std::string encode_text() {
     const float scale = channel_type::scale;
     std::string text;
     if constexpr (channel_type::whole_codes)
-        text = std::string(exceeds_text) + std::string(encode_unorm_text) +
-               std::string(Texel::representation_type::premultiplied ? complement_unorm_text : complement_ratio_text);
+        (((text = exceeds_text) += is_number_text) += encode_unorm_text) +=
+            Texel::representation_type::premultiplied ? complement_unorm_text : complement_ratio_text;
     else if constexpr (std::same_as<channel_type, half16>)
-        text = std::string(half_text) + std::string(encode_half_text);
+        ((text = half_text) += is_number_text) += encode_half_text;
     else
-        text = encode_float_text.substr(1);
+        (text = is_number_text.substr(1)) += encode_float_text;
     return filled(text, {{"scale", literal(scale)}, {"half", literal(0.5f * (scale + 1.0f))}});
 }
 

@@ -1,6 +1,6 @@
-// gnomon: soft shadow maps. What GLSL lacks and an exact shader needs: a comparison with a product, halves, a wide quotient.
+// gnomon: soft shadow maps. What GLSL lacks and an exact shader needs: a comparison with a product, quotients, halves, what is a number.
 //
-// Each is a text, in whole numbers of 32 bits, which every GL computes alike.
+// Each is a text, in whole numbers of 32 bits, and in floats where no rounding of theirs shows: which every GL computes alike.
 #pragma once
 
 #include <gnomon/gl/glsl_text.hpp>
@@ -99,6 +99,24 @@ bool gnomon_exceeds(vec2 a, float b, vec2 c) {
     if (left.x != right.x) return (left.x > right.x) != below;
     if (left.y != right.y) return (left.y > right.y) != below;
     return below ? left.z < right.z : left.z > right.z;
+}
+)";
+
+/// `bool gnomon_is_number(float v)`: by its bits. A driver may write !(v > 0) as v <= 0, as NVIDIA's does, which lets a NaN pass.
+inline constexpr std::string_view is_number_text = R"(
+bool gnomon_is_number(float v) { return (floatBitsToUint(v) & 0x7FFFFFFFu) <= 0x7F800000u; }
+)";
+
+/// `float gnomon_divide(float a, float b)`: a / b as a float nearest to it, though a driver's own quotient may be 2.5 last places off
+/// (GLSL 4.60, 4.7.1). For b of at most 16 bits never the neighbour, and a and the quotient 0 or beyond 2^-78. Cost: about 14 operations.
+inline constexpr std::string_view divide_text = R"(
+// a / b, to the nearest float, where a driver's own quotient may be some last places off
+float gnomon_divide(float a, float b) {
+    precise float inverse = 1.0 / b, share = a * inverse;
+    precise float high = uintBitsToFloat(floatBitsToUint(share) & 0xFFFFF000u), low = share - high;
+    precise float b_high = uintBitsToFloat(floatBitsToUint(b) & 0xFFFFF000u), b_low = b - b_high;
+    precise float rest = ((a - high * b_high) - high * b_low) - low * b_high - low * b_low; // exact, be it fused or not
+    return share + rest * inverse;
 }
 )";
 

@@ -240,8 +240,11 @@ template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_ro
     using of = detail::filter_in_gl<Texel, Kernel>;
     using detail::vec;
     constexpr bool is_half = std::is_same_v<typename Texel::channel_type, half16>;
+    constexpr auto whole = static_cast<float>(of::by::whole); // that sums of floats are parts of
+    constexpr bool divides = !of::whole_codes && (whole < 1.0f || whole > 1.0f);
     std::string text = "// gnomon: rows of " + detail::filter_name<Texel, Kernel>() + "\n";
     if (is_half) text += std::string(half_text) + "\n";
+    if (divides) text += std::string(divide_text.substr(1)) + "\n";
     text += R"(uniform @sampler gnomon_sums;
 layout(location = 0) out @vec gnomon_texel;
 @weights@division
@@ -264,8 +267,10 @@ void gnomon_add(@number weight, int away) {
     text += "}\n\nvoid main() {\n";
     text += "@taps";
     if constexpr (!of::whole_codes) {
-        constexpr auto whole = static_cast<float>(of::by::whole);
-        if (whole < 1.0f || whole > 1.0f) text += "    gnomon_sum = gnomon_sum / " + detail::literal(whole) + ";\n";
+        if (divides) {
+            text += "    gnomon_sum = ";
+            text += detail::each_component<Texel>("gnomon_divide(gnomon_sum.", ", " + detail::literal(whole) + ")") + ";\n";
+        }
         text += "    gnomon_texel = ";
         const std::string halves = detail::each_component<Texel>("gnomon_half(gnomon_sum.", ")");
         text += is_half ? halves : "gnomon_sum";

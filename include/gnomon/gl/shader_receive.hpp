@@ -139,8 +139,8 @@ float gnomon_shadow_at(sampler2D map, vec2 position, float z) {
 /// The map's texture needs no filter and no border; it is read with texelFetch. Whether there is shadow is decided as by the scalar
 /// functions, in every bit: for texels read one by one, and for whole codes blended, exactly. (The scalar decision of blended 16-bit codes
 /// and ratios is one of doubles, and rounds 57 bits to 53; of bytes up to two roundings are exact.) Blends of halves and floats are sums in
-/// single precision, and decide as if z were off by 2^-20 (1 - z) + 2^-23. The intensity is a division and, past a far bound, a fade in
-/// single precision. Subnormal floats count as the driver has them, mostly as zero.
+/// single precision, and decide as if z were off by 2^-20 (1 - z) + 2^-23. The intensity is the nearest float and, past a far bound, a fade
+/// in single precision. Subnormal floats count as the driver has them, mostly as zero.
 template <texel_format Texel> [[nodiscard]] std::string receive_text(const shader_rule<Texel>& by) {
     detail::check_texel<Texel>();
     constexpr bool whole = Texel::channel_type::whole_codes;
@@ -148,6 +148,7 @@ template <texel_format Texel> [[nodiscard]] std::string receive_text(const shade
     const char* const decision = wide ? "gnomon_shadow_of_blend(@vec(sum >> 16), @vec(sum & 0xFFFFu) / 65536.0, z)"
                                       : "gnomon_shadow(@vec(sum) / 65536.0, z)";
     std::string text = "// gnomon: receivers behind casters of " + detail::format_name<Texel>() + "\n" + std::string(exceeds_text);
+    if (whole) text += divide_text;
     if (wide) text += "\n" + std::string(exceeds_blend_text);
     text += by.declarations + detail::decide_text<Texel>(by);
     if (wide) text += detail::decide_text<Texel>(by, true);

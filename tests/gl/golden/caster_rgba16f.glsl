@@ -18,16 +18,18 @@ float gnomon_half(float v) {
     return uintBitsToFloat(sign | (size >= 0x47800000u ? 0x7F800000u : size)); // beyond the last half is infinity
 }
 
+bool gnomon_is_number(float v) { return (floatBitsToUint(v) & 0x7FFFFFFFu) <= 0x7F800000u; }
+
 // the half nearest to v
 float gnomon_code(float v) {
-    if (!(v > 0.0)) return 0.0;
+    if (!gnomon_is_number(v) || v <= 0.0) return 0.0;
     return v < 1.0 ? gnomon_half(v) : 1.0;
 }
 
 // the half nearest to 1 - z, which a float cannot tell for all z before 1/2; whole numbers of 2^-25 can
 float gnomon_complement(float z) {
-    if (!(z < 1.0)) return 0.0;
-    if (!(z > 0.0)) return 1.0;
+    if (!gnomon_is_number(z) || z >= 1.0) return 0.0;
+    if (z <= 0.0) return 1.0;
     if (z >= 0.5) return gnomon_half(1.0 - z);
     float units = z * 16777216.0;
     uint whole = uint(units), more = float(whole) < units ? 1u : 0u;

@@ -1,11 +1,13 @@
 // gnomon: casters of float32 (e, m, far bound, contribution)
+bool gnomon_is_number(float v) { return (floatBitsToUint(v) & 0x7FFFFFFFu) <= 0x7F800000u; }
+
 float gnomon_code(float v) {
-    if (!(v > 0.0)) return 0.0;
+    if (!gnomon_is_number(v) || v <= 0.0) return 0.0;
     return v < 1.0 ? v : 1.0;
 }
 
 float gnomon_complement(float z) {
-    if (!(z < 1.0)) return 0.0;
+    if (!gnomon_is_number(z) || z >= 1.0) return 0.0;
     return z > 0.0 ? 1.0 - z : 1.0;
 }
 

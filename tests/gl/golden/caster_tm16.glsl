@@ -37,9 +37,11 @@ bool gnomon_exceeds(float a, float b, float c) {
     return low != c_low && (low > c_low) != below;
 }
 
+bool gnomon_is_number(float v) { return (floatBitsToUint(v) & 0x7FFFFFFFu) <= 0x7F800000u; }
+
 // the code nearest to 65535.0 v, halves upwards; 0 if v is not a number
 float gnomon_code(float v) {
-    if (!(v > 0.0)) return 0.0;
+    if (!gnomon_is_number(v) || v <= 0.0) return 0.0;
     if (v >= 1.0) return 65535.0;
     float code = floor(65535.0 * v + 0.5); // or one more: rounding keeps the order, so never less
     return gnomon_exceeds(-65535.0, v, 0.5 - code) ? code - 1.0 : code;
@@ -47,8 +49,8 @@ float gnomon_code(float v) {
 
 // the largest code that is not nearer to the light than z
 float gnomon_complement(float z) {
-    if (!(z < 1.0)) return 0.0;
-    if (!(z > 0.0)) return 65535.0;
+    if (!gnomon_is_number(z) || z >= 1.0) return 0.0;
+    if (z <= 0.0) return 65535.0;
     float code = floor(65535.0 - 65535.0 * z); // or one more: rounding keeps the order, so never less
     return gnomon_exceeds(65535.0, z, 65535.0 - code) ? code - 1.0 : code;
 }

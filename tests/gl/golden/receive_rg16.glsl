@@ -37,6 +37,15 @@ bool gnomon_exceeds(float a, float b, float c) {
     return low != c_low && (low > c_low) != below;
 }
 
+// a / b, to the nearest float, where a driver's own quotient may be some last places off
+float gnomon_divide(float a, float b) {
+    precise float inverse = 1.0 / b, share = a * inverse;
+    precise float high = uintBitsToFloat(floatBitsToUint(share) & 0xFFFFF000u), low = share - high;
+    precise float b_high = uintBitsToFloat(floatBitsToUint(b) & 0xFFFFF000u), b_low = b - b_high;
+    precise float rest = ((a - high * b_high) - high * b_low) - low * b_high - low * b_low; // exact, be it fused or not
+    return share + rest * inverse;
+}
+
 // the size of v.x + v.y, in units of 2^-16: its whole part and the rest
 uvec2 gnomon_units(vec2 v) {
     if (v.x + v.y < 0.0) v = -v;
@@ -91,7 +100,7 @@ float gnomon_shadow(vec2 texel, float z) {
     precise float m = texel.y + 0.5;
     precise float nearer_z = z - 7.718918e-06;
     if (!(nearer_z < 0.5 ? gnomon_exceeds(m, nearer_z, m - e) : gnomon_exceeds(-m, 1.0 - nearer_z, -e))) return 0.0;
-    precise float darkness = texel.y / 65535.0;
+    precise float darkness = gnomon_divide(texel.y, 65535.0);
     return darkness > 0.0 ? (darkness < 1.0 ? darkness : 1.0) : 0.0;
 }
 
@@ -104,7 +113,7 @@ float gnomon_shadow_of_blend(vec2 whole, vec2 fraction, float z) {
     precise vec2 m = code_y + vec2(0.5, 0.0);
     precise float nearer_z = z - 7.718918e-06;
     if (!(nearer_z < 0.5 ? gnomon_exceeds(m, nearer_z, m - e) : gnomon_exceeds(-m, 1.0 - nearer_z, -e))) return 0.0;
-    precise float darkness = (code_y.x + code_y.y) / 65535.0;
+    precise float darkness = gnomon_divide(code_y.x + code_y.y, 65535.0);
     return darkness > 0.0 ? (darkness < 1.0 ? darkness : 1.0) : 0.0;
 }
 

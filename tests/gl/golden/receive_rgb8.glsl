@@ -37,6 +37,15 @@ bool gnomon_exceeds(float a, float b, float c) {
     return low != c_low && (low > c_low) != below;
 }
 
+// a / b, to the nearest float, where a driver's own quotient may be some last places off
+float gnomon_divide(float a, float b) {
+    precise float inverse = 1.0 / b, share = a * inverse;
+    precise float high = uintBitsToFloat(floatBitsToUint(share) & 0xFFFFF000u), low = share - high;
+    precise float b_high = uintBitsToFloat(floatBitsToUint(b) & 0xFFFFF000u), b_low = b - b_high;
+    precise float rest = ((a - high * b_high) - high * b_low) - low * b_high - low * b_low; // exact, be it fused or not
+    return share + rest * inverse;
+}
+
 // intensity of the shadow on a receiver at depth z, by the numbers of a filtered texel in codes
 float gnomon_shadow(vec4 texel, float z) {
     if (!(texel.y > 0.0 && z > 0.0)) return 0.0;
@@ -48,7 +57,7 @@ float gnomon_shadow(vec4 texel, float z) {
     precise float m_2 = texel.y + 0.5;
     precise float nearer_z_2 = z - 0.0019608738;
     bool bounded = texel.z > 0.0 && (nearer_z_2 < 0.5 ? gnomon_exceeds(m_2, nearer_z_2, m_2 - e_2) : gnomon_exceeds(-m_2, 1.0 - nearer_z_2, -e_2));
-    precise float darkness = texel.y / 255.0;
+    precise float darkness = gnomon_divide(texel.y, 255.0);
     return (darkness > 0.0 ? (darkness < 1.0 ? darkness : 1.0) : 0.0) * (bounded ? 0.0 : 1.0);
 }
 

@@ -37,6 +37,15 @@ bool gnomon_exceeds(float a, float b, float c) {
     return low != c_low && (low > c_low) != below;
 }
 
+// a / b, to the nearest float, where a driver's own quotient may be some last places off
+float gnomon_divide(float a, float b) {
+    precise float inverse = 1.0 / b, share = a * inverse;
+    precise float high = uintBitsToFloat(floatBitsToUint(share) & 0xFFFFF000u), low = share - high;
+    precise float b_high = uintBitsToFloat(floatBitsToUint(b) & 0xFFFFF000u), b_low = b - b_high;
+    precise float rest = ((a - high * b_high) - high * b_low) - low * b_high - low * b_low; // exact, be it fused or not
+    return share + rest * inverse;
+}
+
 // the size of v.x + v.y, in units of 2^-16: its whole part and the rest
 uvec2 gnomon_units(vec2 v) {
     if (v.x + v.y < 0.0) v = -v;
@@ -88,7 +97,7 @@ bool gnomon_exceeds(vec2 a, float b, vec2 c) {
 float gnomon_shadow(vec2 texel, float z) {
     if (!(texel.y > 0.0 && z > 0.0)) return 0.0;
     if (!(z < 0.5 ? gnomon_exceeds(texel.y, z, texel.y - texel.x) : gnomon_exceeds(-texel.y, 1.0 - z, -texel.x))) return 0.0;
-    precise float darkness = texel.y / 65025.0;
+    precise float darkness = gnomon_divide(texel.y, 65025.0);
     return darkness > 0.0 ? (darkness < 1.0 ? darkness : 1.0) : 0.0;
 }
 
@@ -98,7 +107,7 @@ float gnomon_shadow_of_blend(vec2 whole, vec2 fraction, float z) {
     precise vec2 code_y = vec2(whole.y, fraction.y);
     if (!(code_y.x + code_y.y > 0.0 && z > 0.0)) return 0.0;
     if (!(z < 0.5 ? gnomon_exceeds(code_y, z, code_y - code_x) : gnomon_exceeds(-code_y, 1.0 - z, -code_x))) return 0.0;
-    precise float darkness = (code_y.x + code_y.y) / 65025.0;
+    precise float darkness = gnomon_divide(code_y.x + code_y.y, 65025.0);
     return darkness > 0.0 ? (darkness < 1.0 ? darkness : 1.0) : 0.0;
 }
 

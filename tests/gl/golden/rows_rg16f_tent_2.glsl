@@ -18,6 +18,15 @@ float gnomon_half(float v) {
     return uintBitsToFloat(sign | (size >= 0x47800000u ? 0x7F800000u : size)); // beyond the last half is infinity
 }
 
+// a / b, to the nearest float, where a driver's own quotient may be some last places off
+float gnomon_divide(float a, float b) {
+    precise float inverse = 1.0 / b, share = a * inverse;
+    precise float high = uintBitsToFloat(floatBitsToUint(share) & 0xFFFFF000u), low = share - high;
+    precise float b_high = uintBitsToFloat(floatBitsToUint(b) & 0xFFFFF000u), b_low = b - b_high;
+    precise float rest = ((a - high * b_high) - high * b_low) - low * b_high - low * b_low; // exact, be it fused or not
+    return share + rest * inverse;
+}
+
 uniform usampler2D gnomon_sums;
 layout(location = 0) out vec2 gnomon_texel;
 
@@ -39,6 +48,6 @@ void main() {
     gnomon_sum = 0.1875 * gnomon_at(0);
     gnomon_add(0.125, 1);
     gnomon_add(0.0625, 2);
-    gnomon_sum = gnomon_sum / 0.31640625;
+    gnomon_sum = vec2(gnomon_divide(gnomon_sum.x, 0.31640625), gnomon_divide(gnomon_sum.y, 0.31640625));
     gnomon_texel = vec2(gnomon_half(gnomon_sum.x), gnomon_half(gnomon_sum.y));
 }
