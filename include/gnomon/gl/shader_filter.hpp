@@ -158,10 +158,11 @@ template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_co
 layout(location = 0) out @stored gnomon_sums;
 @weights
 @sum gnomon_sum = @zero;
+int gnomon_height = 0; // of the map, asked for once: that takes a GPU longer than a texel
 
 @vec gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
-    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return @vec(0);
+    if (at.y < 0 || at.y >= gnomon_height) return @vec(0);
     return @vec(texelFetch(gnomon_texels, at, 0));
 }
 
@@ -173,7 +174,7 @@ void gnomon_add(@number weight, int away) {
         text += "    @uvec codes = @uvec(gnomon_at(away) * @scale + 0.5);\n    gnomon_sum += weight * @linear;\n";
     else
         text += "    gnomon_sum += weight * @linear;\n";
-    text += "}\n\nvoid main() {\n@taps    gnomon_sums = @result;\n}\n";
+    text += "}\n\nvoid main() {\n    gnomon_height = textureSize(gnomon_texels, 0).y;\n@taps    gnomon_sums = @result;\n}\n";
     const std::string result = of::narrow && is_half            ? detail::each_component<Texel>("gnomon_half(gnomon_sum.", ")")
                                : of::narrow && !of::whole_codes ? "gnomon_sum"
                                : of::narrow                     ? "@vec((gnomon_sum + @halfu) / @wholeu) / @scale"
@@ -251,10 +252,11 @@ layout(location = 0) out @vec gnomon_texel;
 )";
     text += of::two_words ? "@uvec gnomon_low = @zero, gnomon_high = @zero; // sums of the low and the high 16 bits\n"
                           : "@sum gnomon_sum = @zero;\n";
-    text += R"(
+    text += R"(int gnomon_width = 0; // of the map
+
 @sums gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
-    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return @sums(0);
+    if (at.x < 0 || at.x >= gnomon_width) return @sums(0);
     return @fetch;
 }
 
@@ -264,8 +266,7 @@ void gnomon_add(@number weight, int away) {
             : of::two_words  ? "    @uvec sums = gnomon_at(away);\n    gnomon_low += weight * (sums & 0xFFFFu);\n"
                                "    gnomon_high += weight * (sums >> 16);\n"
                              : "    gnomon_sum += weight * gnomon_at(away);\n";
-    text += "}\n\nvoid main() {\n";
-    text += "@taps";
+    text += "}\n\nvoid main() {\n    gnomon_width = textureSize(gnomon_sums, 0).x;\n@taps";
     if constexpr (!of::whole_codes) {
         if (divides) {
             text += "    gnomon_sum = ";

@@ -84,7 +84,7 @@ float gnomon_shadow_of_blend(@vec whole, @vec fraction, float z) {
     return filled(wide ? blend : single, {{"body", body.text()}, {"vec", vec<Texel>()}});
 }
 
-/// uvec2 gnomon_read(sampler2D map, ivec2 at), or vec2 of floats: a texel in codes, as `linear` has them; clear off the map.
+/// uvec2 gnomon_read(sampler2D map, ivec2 size, ivec2 at), or vec2 of floats: a texel in codes, as `linear` has them; clear off the map.
 template <texel_format Texel> [[nodiscard]] std::string read_text() {
     constexpr bool whole = Texel::channel_type::whole_codes;
     std::string codes = whole ? "return @uvec(texel * @scale + 0.5)" : "return texel";
@@ -95,8 +95,7 @@ template <texel_format Texel> [[nodiscard]] std::string read_text() {
         codes += ")";
     }
     return filled("\n// a texel in codes; clear lies off the map\n"
-                  "@read gnomon_read(sampler2D map, ivec2 at) {\n"
-                  "    ivec2 size = textureSize(map, 0);\n"
+                  "@read gnomon_read(sampler2D map, ivec2 size, ivec2 at) {\n"
                   "    if (at.x < 0 || at.y < 0 || at.x >= size.x || at.y >= size.y) return @read(0);\n"
                   "    @vec texel = @vec(texelFetch(map, at, 0));\n"
                   "    " +
@@ -111,20 +110,21 @@ template <texel_format Texel> [[nodiscard]] std::string read_text() {
 /// Four texels blended, as filter/sample.hpp does.
 inline constexpr std::string_view sample_text = R"(
 // intensity at texel `at` of a map
-float gnomon_shadow(sampler2D map, ivec2 at, float z) { return gnomon_shadow(@vec(gnomon_read(map, at)), z); }
+float gnomon_shadow(sampler2D map, ivec2 at, float z) { return gnomon_shadow(@vec(gnomon_read(map, textureSize(map, 0), at)), z); }
 
 // intensity at a position in texels, blended from four, in steps of 1/256; off the map is lit
 float gnomon_shadow_at(sampler2D map, vec2 position, float z) {
-    vec2 size = vec2(textureSize(map, 0));
-    bool here = position.x > -1.0 && position.y > -1.0 && position.x < size.x + 1.0 && position.y < size.y + 1.0;
+    ivec2 size = textureSize(map, 0);
+    vec2 end = vec2(size) + 1.0;
+    bool here = position.x > -1.0 && position.y > -1.0 && position.x < end.x && position.y < end.y;
     if (!here) return 0.0; // or no number
     ivec2 fine = (ivec2(floor(512.0 * position)) - 255) >> 1; // from the centre of texel 0
     ivec2 at = fine >> 8;
     uvec2 right = uvec2(fine & 255), left = 256u - right;
-    @precise@read sum = @weight(left.x * left.y) * gnomon_read(map, at);
-    sum = sum + @weight(right.x * left.y) * gnomon_read(map, at + ivec2(1, 0));
-    sum = sum + @weight(left.x * right.y) * gnomon_read(map, at + ivec2(0, 1));
-    sum = sum + @weight(right.x * right.y) * gnomon_read(map, at + ivec2(1, 1));
+    @precise@read sum = @weight(left.x * left.y) * gnomon_read(map, size, at);
+    sum = sum + @weight(right.x * left.y) * gnomon_read(map, size, at + ivec2(1, 0));
+    sum = sum + @weight(left.x * right.y) * gnomon_read(map, size, at + ivec2(0, 1));
+    sum = sum + @weight(right.x * right.y) * gnomon_read(map, size, at + ivec2(1, 1));
     return @decision;
 }
 )";

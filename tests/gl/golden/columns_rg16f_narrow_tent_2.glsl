@@ -22,10 +22,11 @@ uniform sampler2D gnomon_texels;
 layout(location = 0) out vec2 gnomon_sums;
 
 precise vec2 gnomon_sum = vec2(0);
+int gnomon_height = 0; // of the map, asked for once: that takes a GPU longer than a texel
 
 vec2 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
-    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return vec2(0);
+    if (at.y < 0 || at.y >= gnomon_height) return vec2(0);
     return vec2(texelFetch(gnomon_texels, at, 0));
 }
 
@@ -36,6 +37,7 @@ void gnomon_add(float weight, int away) {
 }
 
 void main() {
+    gnomon_height = textureSize(gnomon_texels, 0).y;
     gnomon_sum = 0.1875 * gnomon_at(0);
     gnomon_add(0.125, 1);
     gnomon_add(0.0625, 2);

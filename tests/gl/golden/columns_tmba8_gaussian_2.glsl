@@ -3,10 +3,11 @@ uniform sampler2D gnomon_texels;
 layout(location = 0) out uvec4 gnomon_sums;
 
 uvec4 gnomon_sum = uvec4(0);
+int gnomon_height = 0; // of the map, asked for once: that takes a GPU longer than a texel
 
 vec4 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
-    if (at.y < 0 || at.y >= textureSize(gnomon_texels, 0).y) return vec4(0);
+    if (at.y < 0 || at.y >= gnomon_height) return vec4(0);
     return vec4(texelFetch(gnomon_texels, at, 0));
 }
 
@@ -16,6 +17,7 @@ void gnomon_add(uint weight, int away) {
 }
 
 void main() {
+    gnomon_height = textureSize(gnomon_texels, 0).y;
     gnomon_add(3571u, -2);
     gnomon_add(16004u, -1);
     gnomon_add(26386u, 0);

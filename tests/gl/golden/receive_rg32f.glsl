@@ -48,27 +48,27 @@ float gnomon_shadow(vec2 texel, float z) {
 }
 
 // a texel in codes; clear lies off the map
-vec2 gnomon_read(sampler2D map, ivec2 at) {
-    ivec2 size = textureSize(map, 0);
+vec2 gnomon_read(sampler2D map, ivec2 size, ivec2 at) {
     if (at.x < 0 || at.y < 0 || at.x >= size.x || at.y >= size.y) return vec2(0);
     vec2 texel = vec2(texelFetch(map, at, 0));
     return texel;
 }
 
 // intensity at texel `at` of a map
-float gnomon_shadow(sampler2D map, ivec2 at, float z) { return gnomon_shadow(vec2(gnomon_read(map, at)), z); }
+float gnomon_shadow(sampler2D map, ivec2 at, float z) { return gnomon_shadow(vec2(gnomon_read(map, textureSize(map, 0), at)), z); }
 
 // intensity at a position in texels, blended from four, in steps of 1/256; off the map is lit
 float gnomon_shadow_at(sampler2D map, vec2 position, float z) {
-    vec2 size = vec2(textureSize(map, 0));
-    bool here = position.x > -1.0 && position.y > -1.0 && position.x < size.x + 1.0 && position.y < size.y + 1.0;
+    ivec2 size = textureSize(map, 0);
+    vec2 end = vec2(size) + 1.0;
+    bool here = position.x > -1.0 && position.y > -1.0 && position.x < end.x && position.y < end.y;
     if (!here) return 0.0; // or no number
     ivec2 fine = (ivec2(floor(512.0 * position)) - 255) >> 1; // from the centre of texel 0
     ivec2 at = fine >> 8;
     uvec2 right = uvec2(fine & 255), left = 256u - right;
-    precise vec2 sum = float(left.x * left.y) * gnomon_read(map, at);
-    sum = sum + float(right.x * left.y) * gnomon_read(map, at + ivec2(1, 0));
-    sum = sum + float(left.x * right.y) * gnomon_read(map, at + ivec2(0, 1));
-    sum = sum + float(right.x * right.y) * gnomon_read(map, at + ivec2(1, 1));
+    precise vec2 sum = float(left.x * left.y) * gnomon_read(map, size, at);
+    sum = sum + float(right.x * left.y) * gnomon_read(map, size, at + ivec2(1, 0));
+    sum = sum + float(left.x * right.y) * gnomon_read(map, size, at + ivec2(0, 1));
+    sum = sum + float(right.x * right.y) * gnomon_read(map, size, at + ivec2(1, 1));
     return gnomon_shadow(vec2(sum) / 65536.0, z);
 }

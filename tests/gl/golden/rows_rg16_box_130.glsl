@@ -27,10 +27,11 @@ uint gnomon_nearest(uvec2 sum) {
 }
 
 uvec2 gnomon_low = uvec2(0), gnomon_high = uvec2(0); // sums of the low and the high 16 bits
+int gnomon_width = 0; // of the map
 
 uvec2 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
-    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return uvec2(0);
+    if (at.x < 0 || at.x >= gnomon_width) return uvec2(0);
     return uvec2(texelFetch(gnomon_sums, at, 0));
 }
 
@@ -41,6 +42,7 @@ void gnomon_add(uint weight, int away) {
 }
 
 void main() {
+    gnomon_width = textureSize(gnomon_sums, 0).x;
     for (int away = -130; away <= 130; ++away) gnomon_add(1u, away);
     uvec2 codes = uvec2(gnomon_nearest(gnomon_words(gnomon_low.x, gnomon_high.x)), gnomon_nearest(gnomon_words(gnomon_low.y, gnomon_high.y)));
     gnomon_texel = vec2(codes) / 65535.0;

@@ -31,10 +31,11 @@ uniform sampler2D gnomon_sums;
 layout(location = 0) out vec2 gnomon_texel;
 
 precise vec2 gnomon_sum = vec2(0);
+int gnomon_width = 0; // of the map
 
 vec2 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
-    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return vec2(0);
+    if (at.x < 0 || at.x >= gnomon_width) return vec2(0);
     return vec2(texelFetch(gnomon_sums, at, 0));
 }
 
@@ -45,6 +46,7 @@ void gnomon_add(float weight, int away) {
 }
 
 void main() {
+    gnomon_width = textureSize(gnomon_sums, 0).x;
     gnomon_sum = 0.1875 * gnomon_at(0);
     gnomon_add(0.125, 1);
     gnomon_add(0.0625, 2);

@@ -27,10 +27,11 @@ uint gnomon_nearest(uvec2 sum) {
 }
 
 uvec4 gnomon_low = uvec4(0), gnomon_high = uvec4(0); // sums of the low and the high 16 bits
+int gnomon_width = 0; // of the map
 
 uvec4 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
-    if (at.x < 0 || at.x >= textureSize(gnomon_sums, 0).x) return uvec4(0);
+    if (at.x < 0 || at.x >= gnomon_width) return uvec4(0);
     return uvec4(texelFetch(gnomon_sums, at, 0));
 }
 
@@ -41,6 +42,7 @@ void gnomon_add(uint weight, int away) {
 }
 
 void main() {
+    gnomon_width = textureSize(gnomon_sums, 0).x;
     gnomon_add(3571u, -2);
     gnomon_add(16004u, -1);
     gnomon_add(26386u, 0);
