@@ -240,6 +240,10 @@ TEST_CASE_TEMPLATE("lanes cast and bound rows of several pieces as the scalar ra
             };
             mesh->add(corner(at, -1), corner(at + across, roll(-1.0, 3.0)), corner(at + roll(-9.0, 9.0), 9));
             mesh->add(corner(at + across, 2), corner(at + across, 7), corner(at + roll(0.0, 300.0), 4));
+            if (i == 0) { // one whole piece in few rows, and rows of a triangle that is cut
+                mesh->add(corner(10, 0), corner(10 + detail::row_piece, 0), corner(10, 2000));
+                mesh->add(corner(0, 3), corner(1e7, 5), corner(0, 9));
+            }
         }
         image<Texel> expected(around, Texel::clear());
         const auto cast = [&](auto run, image<Texel>& map) {
@@ -256,6 +260,20 @@ TEST_CASE_TEMPLATE("lanes cast and bound rows of several pieces as the scalar ra
         });
     }
     CHECK(changed > 40 * 600);
+}
+
+TEST_CASE_TEMPLATE("in lanes too a receiver on the near plane ends the shadow of a caster there, and one before it ends none",
+                   Texel, rgb8, rgb32f) {
+    for (const double depth : {0.0, -0.25}) {
+        mesh_data sheet;
+        sheet.add({-256, -256, depth}, {80000, -256, depth}, {-256, 80000, depth});
+        for_each_isa([&]<typename Isa>() {
+            image<Texel> map(map_size, Texel::caster(0.0f));
+            bound_triangles(simd<Isa>{}, map.view(), sheet.mesh(), plain_frame(map_size), faces::both);
+            CHECK(map(40, 20).stored[Texel::far_index] ==
+                  (depth < 0.0 ? typename Texel::storage{0} : Texel::caster(0.0f).stored[0]));
+        });
+    }
 }
 
 TEST_CASE(
