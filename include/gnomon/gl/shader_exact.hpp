@@ -107,8 +107,9 @@ inline constexpr std::string_view is_number_text = R"(
 bool gnomon_is_number(float v) { return (floatBitsToUint(v) & 0x7FFFFFFFu) <= 0x7F800000u; }
 )";
 
-/// `float gnomon_divide(float a, float b)`: a / b as a float nearest to it, though a driver's own quotient may be 2.5 last places off
-/// (GLSL 4.60, 4.7.1). For b of at most 16 bits never the neighbour, and a and the quotient 0 or beyond 2^-78. Cost: about 14 operations.
+/// `float gnomon_divide(float a, float b)`: a / b as the nearest float, though a driver's own quotient may be 2.5 last places off (GLSL
+/// 4.60, 4.7.1): what its product with the rounded 1 / b leaves is exact in halves of 12 bits. Where b has more than 16 bits, or a or a / b is
+/// not 0 and below 2^-78, it may be the neighbour. Cost: about 14 operations.
 inline constexpr std::string_view divide_text = R"(
 // a / b, to the nearest float, where a driver's own quotient may be some last places off
 float gnomon_divide(float a, float b) {
