@@ -52,7 +52,7 @@ TEST_CASE("a number is written with the parentheses that it needs, and without w
     CHECK((a + number(1)).text() == "a + 1.0");
     CHECK((a * number(0)).text() == "a * 0.0");
     CHECK((a / b).text() == "a / b");
-    CHECK(((a + b) / number(2) * c).text() == "gnomon_divide(a + b, 2.0) * c");
+    CHECK(((a + b) / number(2) * c).text() == "gnomon_divide(a + b, 2.0, 0.5) * c");
     CHECK_FALSE((a / number(2)).is_short());
     CHECK((a - number(-2)).text() == "a + 2.0");
     CHECK((a - number(0.5)).text() == "a - 0.5");

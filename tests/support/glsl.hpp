@@ -21,6 +21,26 @@
 
 namespace test::glsl {
 
+/// A bool as a driver may have it, which writes !(a > b) as a <= b: so of a NaN neither a comparison nor its contrary holds.
+struct truth {
+    constexpr truth(bool v = false) : truth(v, !v) {}
+    constexpr truth(bool holds_, bool contrary_) : holds(holds_), contrary(contrary_) {}
+    constexpr operator bool() const { return holds; }
+    friend constexpr truth operator!(truth t) { return {t.contrary, t.holds}; }
+    template <typename A, typename B>
+        requires(std::is_same_v<A, truth> || std::is_same_v<B, truth>)
+    friend constexpr truth operator&&(A a, B b) {
+        return {truth(a).holds && truth(b).holds, truth(a).contrary || truth(b).contrary};
+    }
+    template <typename A, typename B>
+        requires(std::is_same_v<A, truth> || std::is_same_v<B, truth>)
+    friend constexpr truth operator||(A a, B b) {
+        return {truth(a).holds || truth(b).holds, truth(a).contrary && truth(b).contrary};
+    }
+
+    bool holds, contrary;
+};
+
 /// A float whose every operation is rounded to one.
 struct real {
     constexpr real() = default;
@@ -29,17 +49,19 @@ struct real {
     constexpr explicit real(std::uint32_t v) : value(static_cast<float>(v)) {}
     constexpr explicit real(int v) : value(static_cast<float>(v)) {}
     constexpr explicit operator std::uint32_t() const { return static_cast<std::uint32_t>(value); }
-    constexpr explicit operator int() const { return static_cast<int>(value); }
+    constexpr explicit operator int() const { // GPUs take the nearest int, and 0 for a NaN
+        return value >= 0x1p31f ? 0x7FFFFFFF : value >= -0x1p31f ? static_cast<int>(value) : value < 0.0f ? -0x7FFFFFFF - 1 : 0;
+    }
     friend constexpr real operator-(real a) { return -a.value; }
     friend constexpr real operator+(real a, real b) { return a.value + b.value; }
     friend constexpr real operator-(real a, real b) { return a.value - b.value; }
     friend constexpr real operator*(real a, real b) { return a.value * b.value; }
     friend constexpr real operator/(real a, real b) { return a.value / b.value; }
-    friend constexpr bool operator<(real a, real b) { return a.value < b.value; }
-    friend constexpr bool operator>(real a, real b) { return a.value > b.value; }
-    friend constexpr bool operator<=(real a, real b) { return a.value <= b.value; }
-    friend constexpr bool operator>=(real a, real b) { return a.value >= b.value; }
-    friend constexpr bool operator==(real a, real b) { return a.value <= b.value && a.value >= b.value; }
+    friend constexpr truth operator<(real a, real b) { return {a.value < b.value, a.value >= b.value}; }
+    friend constexpr truth operator>(real a, real b) { return b < a; }
+    friend constexpr truth operator<=(real a, real b) { return !(b < a); }
+    friend constexpr truth operator>=(real a, real b) { return b <= a; }
+    friend constexpr truth operator==(real a, real b) { return a <= b && a >= b; }
 
     float value = 0.0f;
 };
@@ -154,7 +176,7 @@ template <int N> vec<real, N> uintBitsToFloat(const vec<uint, N>& bits) {
 }
 /// For numbers below 2^31, which are all that shaders ask for; larger ones are whole already.
 inline real floor(real v) {
-    if (!(v > -2147483648.0 && v < 2147483648.0)) return v;
+    if (!(v.value > -0x1p31f && v.value < 0x1p31f)) return v;
     const auto cut = static_cast<float>(static_cast<int>(v.value));
     return cut > v.value ? cut - 1.0f : cut;
 }

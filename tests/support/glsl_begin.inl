@@ -11,6 +11,7 @@
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
 #define float real
+#define bool truth
 #define precise
 #define layout(location)
 #define uniform static

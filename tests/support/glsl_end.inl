@@ -1,5 +1,6 @@
 // C++ again.
 #undef float
+#undef bool
 #undef precise
 #undef layout
 #undef uniform

@@ -106,7 +106,9 @@ class number {
     }
     [[nodiscard]] friend number operator/(const number& a, const number& b) {
         if (b.is(1.0f)) return a;
-        if (b.value_) return number("gnomon_divide(" + a.one().text_ + ", " + b.text_ + ')', a, b, binding::product);
+        if (b.value_)
+            return number("gnomon_divide(" + a.one().text_ + ", " + b.text_ + ", " + detail::literal(1.0f / *b.value_) + ')', a, b,
+                          binding::product);
         return number(a.one().within(binding::product) + " / " + b.one().within(binding::name), a, b, binding::product);
     }
 

@@ -16,8 +16,8 @@ namespace gl {
 
 /// The shading languages that gnomon writes. Texts are the same in all of them, but for the lines they begin with.
 enum class glsl_version {
-    desktop_330, ///< OpenGL 3.3 core and later; `precise` where there is ARB_gpu_shader5
-    desktop_450, ///< OpenGL 4.5 core: `precise` keeps a product and a sum from being fused
+    desktop_330, ///< OpenGL 3.3 core; `precise` where there is ARB_gpu_shader5, with which `sample` is a keyword too
+    desktop_400, ///< OpenGL 4.0 core and later: `precise` keeps a product and a sum from being fused
     es_300,      ///< OpenGL ES 3.0, WebGL2
     es_320,      ///< OpenGL ES 3.2: `precise`, too
 };
@@ -27,7 +27,7 @@ enum class glsl_version {
     if (version == glsl_version::desktop_330)
         return "#version 330 core\n#ifdef GL_ARB_gpu_shader5\n#extension GL_ARB_gpu_shader5 : enable\n"
                "#else\n#define precise\n#endif\n";
-    if (version == glsl_version::desktop_450) return "#version 450 core\n";
+    if (version == glsl_version::desktop_400) return "#version 400 core\n";
     if (version == glsl_version::es_320)
         return "#version 320 es\nprecision highp float;\nprecision highp int;\n"
                "precision highp sampler2D;\nprecision highp usampler2D;\n";

@@ -111,7 +111,7 @@ float gnomon_complement(float z) {
     if (z >= 0.5) return gnomon_half(1.0 - z);
     float units = z * 16777216.0;
     uint whole = uint(units), more = float(whole) < units ? 1u : 0u;
-    return float(gnomon_nearest_even(33554432u - 2u * whole - more, 14)) / 2048.0;
+    return float(gnomon_nearest_even(33554432u - 2u * whole - more, 14)) * 0.00048828125;
 }
 )";
 inline constexpr std::string_view encode_float_text = R"(
@@ -151,7 +151,7 @@ template <texel_format Texel> [[nodiscard]] std::string order_text() {
     if constexpr (!Texel::effects.translucency) {
         return filled("\n// what is stored nearer to the light is more, and anything is more than the empty buffer\n"
                       "void gnomon_order(float complement) { gl_FragDepth = max(complement@order, 2.98023224e-8); }\n",
-                      {{"order", whole ? " / " + literal(channel_type::scale + 1.0f) : ""}});
+                      {{"order", whole ? " * " + literal(1.0f / (channel_type::scale + 1.0f)) : ""}});
     } else {
         std::string text =
             "\n// what is stored nearer to the light is more, of equals the more opaque; anything is more than the empty "

@@ -1,6 +1,6 @@
 // gnomon: soft shadow maps. What GLSL lacks and an exact shader needs: a comparison with a product, quotients, halves, what is a number.
 //
-// Each is a text, in whole numbers of 32 bits, and in floats where no rounding of theirs shows: which every GL computes alike.
+// Each is a text in whole numbers of 32 bits, or in floats whose roundings do not show, so every GL computes it alike.
 #pragma once
 
 #include <gnomon/gl/glsl_text.hpp>
@@ -57,7 +57,7 @@ bool gnomon_exceeds(float a, float b, float c) {
 inline constexpr std::string_view exceeds_blend_text = R"(// the size of v.x + v.y, in units of 2^-16: its whole part and the rest
 uvec2 gnomon_units(vec2 v) {
     if (v.x + v.y < 0.0) v = -v;
-    float rest = v.x - floor(v.x) + v.y;
+    precise float rest = v.x - floor(v.x) + v.y;
     return uvec2(uint(floor(v.x) + floor(rest)), uint((rest - floor(rest)) * 65536.0));
 }
 
@@ -107,17 +107,18 @@ inline constexpr std::string_view is_number_text = R"(
 bool gnomon_is_number(float v) { return (floatBitsToUint(v) & 0x7FFFFFFFu) <= 0x7F800000u; }
 )";
 
-/// `float gnomon_divide(float a, float b)`: a / b as the nearest float, though a driver's own quotient may be 2.5 last places off (GLSL
-/// 4.60, 4.7.1): what its product with the rounded 1 / b leaves is exact in halves of 12 bits. Where b has more than 16 bits, or a or a / b is
-/// not 0 and below 2^-78, it may be the neighbour. Cost: about 14 operations.
+/// `float gnomon_divide(float a, float b, float inverse)`: a / b to the nearest float, by 1 / b within three last places; a driver's own
+/// quotient may be 2.5 off. The remainder a - share b is exact, taken in halves of 12 bits, and corrects the share. So for finite a and a / b
+/// that are 0 or beyond 2^-78, and b of at most 16 bits; of more, it may be the neighbour. Cost: about 14 operations.
 inline constexpr std::string_view divide_text = R"(
-// a / b, to the nearest float, where a driver's own quotient may be some last places off
-float gnomon_divide(float a, float b) {
-    precise float inverse = 1.0 / b, share = a * inverse;
-    precise float high = uintBitsToFloat(floatBitsToUint(share) & 0xFFFFF000u), low = share - high;
-    precise float b_high = uintBitsToFloat(floatBitsToUint(b) & 0xFFFFF000u), b_low = b - b_high;
+// a / b, to the nearest float; inverse is 1 / b, which drivers compute with an error of some last places
+float gnomon_divide(float a, float b, float inverse) {
+    uint bits = floatBitsToUint(a * inverse) & 0xFFFFFFFEu; // of the share, or it were a product that can be fused
+    float share = uintBitsToFloat(bits), high = uintBitsToFloat(bits & 0xFFFFF000u), low = share - high;
+    float b_high = uintBitsToFloat(floatBitsToUint(b) & 0xFFFFF000u), b_low = b - b_high;
     precise float rest = ((a - high * b_high) - high * b_low) - low * b_high - low * b_low; // exact, be it fused or not
-    return share + rest * inverse;
+    precise float quotient = share + rest * inverse;
+    return quotient;
 }
 )";
 
@@ -136,7 +137,7 @@ float gnomon_half(float v) {
     if (size < 0x33000000u) return uintBitsToFloat(sign);                        // less than half of the least half
     if (size < 0x38800000u) {                                                    // a multiple of 2^-24
         uint units = gnomon_nearest_even((size & 0x7FFFFFu) | 0x800000u, 126 - int(size >> 23));
-        return (sign != 0u ? -1.0 : 1.0) * float(units) / 16777216.0;
+        return (sign != 0u ? -1.0 : 1.0) * float(units) * 0.000000059604644775390625;
     }
     size = gnomon_nearest_even(size, 13) << 13;
     return uintBitsToFloat(sign | (size >= 0x47800000u ? 0x7F800000u : size)); // beyond the last half is infinity

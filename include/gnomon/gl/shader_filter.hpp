@@ -158,7 +158,7 @@ template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_co
 layout(location = 0) out @stored gnomon_sums;
 @weights
 @sum gnomon_sum = @zero;
-int gnomon_height = 0; // of the map, asked for once: that takes a GPU longer than a texel
+int gnomon_height = 0; // the map's; asked once a fragment, since asking costs a GPU more than fetching a texel
 
 @vec gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);
@@ -252,7 +252,7 @@ layout(location = 0) out @vec gnomon_texel;
 )";
     text += of::two_words ? "@uvec gnomon_low = @zero, gnomon_high = @zero; // sums of the low and the high 16 bits\n"
                           : "@sum gnomon_sum = @zero;\n";
-    text += R"(int gnomon_width = 0; // of the map
+    text += R"(int gnomon_width = 0; // the map's
 
 @sums gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
@@ -270,7 +270,8 @@ void gnomon_add(@number weight, int away) {
     if constexpr (!of::whole_codes) {
         if (divides) {
             text += "    gnomon_sum = ";
-            text += detail::each_component<Texel>("gnomon_divide(gnomon_sum.", ", " + detail::literal(whole) + ")") + ";\n";
+            const std::string by = ", " + detail::literal(whole) + ", " + detail::literal(1.0f / whole) + ")";
+            text += detail::each_component<Texel>("gnomon_divide(gnomon_sum.", by) + ";\n";
         }
         text += "    gnomon_texel = ";
         const std::string halves = detail::each_component<Texel>("gnomon_half(gnomon_sum.", ")");

@@ -65,6 +65,9 @@ template <texel_format Texel> [[nodiscard]] std::string decide_text(const shader
     for (int c = 0; c < Texel::channels; ++c) texel.code[c] = channel_of(body, wide, "xyzw"[c]);
     const number z("z", &body);
 
+    std::string no_number = "!gnomon_is_number(z)";
+    if (!Texel::channel_type::whole_codes) no_number += " || !gnomon_is_number(texel.x) || !gnomon_is_number(texel.y)";
+    body.say("if (" + no_number + ") return 0.0;");
     body.say("if (" + (!both(texel.mask() > number(0), gnomon::detail::may_be_shadowed(z, by.lit_beyond))).text() +
              ") return 0.0;");
     body.say("if (" + (!gnomon::detail::behind_caster(texel, z, by.caster)).text() + ") return 0.0;");
@@ -116,8 +119,8 @@ float gnomon_shadow(sampler2D map, ivec2 at, float z) { return gnomon_shadow(@ve
 float gnomon_shadow_at(sampler2D map, vec2 position, float z) {
     ivec2 size = textureSize(map, 0);
     vec2 end = vec2(size) + 1.0;
-    bool here = position.x > -1.0 && position.y > -1.0 && position.x < end.x && position.y < end.y;
-    if (!here) return 0.0; // or no number
+    if (!gnomon_is_number(position.x) || !gnomon_is_number(position.y)) return 0.0;
+    if (position.x <= -1.0 || position.y <= -1.0 || position.x >= end.x || position.y >= end.y) return 0.0;
     ivec2 fine = (ivec2(floor(512.0 * position)) - 255) >> 1; // from the centre of texel 0
     ivec2 at = fine >> 8;
     uvec2 right = uvec2(fine & 255), left = 256u - right;
@@ -139,15 +142,16 @@ float gnomon_shadow_at(sampler2D map, vec2 position, float z) {
 /// The map's texture needs no filter and no border; it is read with texelFetch. Whether there is shadow is decided as by the scalar
 /// functions, in every bit: for texels read one by one, and for whole codes blended, exactly. (The scalar decision of blended 16-bit codes
 /// and ratios is one of doubles, and rounds 57 bits to 53; of bytes up to two roundings are exact.) Blends of halves and floats are sums in
-/// single precision, and decide as if z were off by 2^-20 (1 - z) + 2^-23. The intensity is the nearest float and, past a far bound, a fade
-/// in single precision. Subnormal floats count as the driver has them, mostly as zero.
+/// single precision, and decide as if z were off by 2^-20 (1 - z) + 2^-23. The intensity is the nearest float, of blends of 16-bit codes
+/// and of ratios within 2^-24; past a far bound, a fade in single precision. Subnormal floats count as the driver has them, mostly as zero.
 template <texel_format Texel> [[nodiscard]] std::string receive_text(const shader_rule<Texel>& by) {
     detail::check_texel<Texel>();
     constexpr bool whole = Texel::channel_type::whole_codes;
     constexpr bool wide = detail::wide_blends<Texel>;
-    const char* const decision = wide ? "gnomon_shadow_of_blend(@vec(sum >> 16), @vec(sum & 0xFFFFu) / 65536.0, z)"
-                                      : "gnomon_shadow(@vec(sum) / 65536.0, z)";
+    const char* const decision = wide ? "gnomon_shadow_of_blend(@vec(sum >> 16), @vec(sum & 0xFFFFu) * 0.0000152587890625, z)"
+                                      : "gnomon_shadow(@vec(sum) * 0.0000152587890625, z)";
     std::string text = "// gnomon: receivers behind casters of " + detail::format_name<Texel>() + "\n" + std::string(exceeds_text);
+    text += is_number_text;
     if (whole) text += divide_text;
     if (wide) text += "\n" + std::string(exceeds_blend_text);
     text += by.declarations + detail::decide_text<Texel>(by);

@@ -16,7 +16,7 @@ namespace gl {
 /// The latest language of those gnomon writes that a context is sure to compile.
 [[nodiscard]] inline glsl_version glsl_version_of(const context& c) noexcept {
     if (c.es) return c.version >= 32 ? glsl_version::es_320 : glsl_version::es_300;
-    return c.version >= 45 ? glsl_version::desktop_450 : glsl_version::desktop_330;
+    return c.version >= 40 ? glsl_version::desktop_400 : glsl_version::desktop_330;
 }
 
 } // namespace gl

@@ -12,7 +12,7 @@ float gnomon_half(float v) {
     if (size < 0x33000000u) return uintBitsToFloat(sign);                        // less than half of the least half
     if (size < 0x38800000u) {                                                    // a multiple of 2^-24
         uint units = gnomon_nearest_even((size & 0x7FFFFFu) | 0x800000u, 126 - int(size >> 23));
-        return (sign != 0u ? -1.0 : 1.0) * float(units) / 16777216.0;
+        return (sign != 0u ? -1.0 : 1.0) * float(units) * 0.000000059604644775390625;
     }
     size = gnomon_nearest_even(size, 13) << 13;
     return uintBitsToFloat(sign | (size >= 0x47800000u ? 0x7F800000u : size)); // beyond the last half is infinity
@@ -33,7 +33,7 @@ float gnomon_complement(float z) {
     if (z >= 0.5) return gnomon_half(1.0 - z);
     float units = z * 16777216.0;
     uint whole = uint(units), more = float(whole) < units ? 1u : 0u;
-    return float(gnomon_nearest_even(33554432u - 2u * whole - more, 14)) / 2048.0;
+    return float(gnomon_nearest_even(33554432u - 2u * whole - more, 14)) * 0.00048828125;
 }
 
 layout(location = 0) out vec4 gnomon_texel;

@@ -58,7 +58,7 @@ float gnomon_complement(float z) {
 layout(location = 0) out vec2 gnomon_texel;
 
 // what is stored nearer to the light is more, and anything is more than the empty buffer
-void gnomon_order(float complement) { gl_FragDepth = max(complement / 256.0, 2.98023224e-8); }
+void gnomon_order(float complement) { gl_FragDepth = max(complement * 0.00390625, 2.98023224e-8); }
 
 void gnomon_caster(float s) {
     float complement = gnomon_complement(s);

@@ -12,7 +12,7 @@ float gnomon_half(float v) {
     if (size < 0x33000000u) return uintBitsToFloat(sign);                        // less than half of the least half
     if (size < 0x38800000u) {                                                    // a multiple of 2^-24
         uint units = gnomon_nearest_even((size & 0x7FFFFFu) | 0x800000u, 126 - int(size >> 23));
-        return (sign != 0u ? -1.0 : 1.0) * float(units) / 16777216.0;
+        return (sign != 0u ? -1.0 : 1.0) * float(units) * 0.000000059604644775390625;
     }
     size = gnomon_nearest_even(size, 13) << 13;
     return uintBitsToFloat(sign | (size >= 0x47800000u ? 0x7F800000u : size)); // beyond the last half is infinity
@@ -22,7 +22,7 @@ uniform sampler2D gnomon_texels;
 layout(location = 0) out vec2 gnomon_sums;
 
 precise vec2 gnomon_sum = vec2(0);
-int gnomon_height = 0; // of the map, asked for once: that takes a GPU longer than a texel
+int gnomon_height = 0; // the map's; asked once a fragment, since asking costs a GPU more than fetching a texel
 
 vec2 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);

@@ -3,7 +3,7 @@ uniform sampler2D gnomon_texels;
 layout(location = 0) out vec4 gnomon_sums;
 
 uvec4 gnomon_sum = uvec4(0);
-int gnomon_height = 0; // of the map, asked for once: that takes a GPU longer than a texel
+int gnomon_height = 0; // the map's; asked once a fragment, since asking costs a GPU more than fetching a texel
 
 vec4 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(0, away);

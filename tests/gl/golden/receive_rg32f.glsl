@@ -37,8 +37,11 @@ bool gnomon_exceeds(float a, float b, float c) {
     return low != c_low && (low > c_low) != below;
 }
 
+bool gnomon_is_number(float v) { return (floatBitsToUint(v) & 0x7FFFFFFFu) <= 0x7F800000u; }
+
 // intensity of the shadow on a receiver at depth z, by the numbers of a filtered texel in codes
 float gnomon_shadow(vec2 texel, float z) {
+    if (!gnomon_is_number(z) || !gnomon_is_number(texel.x) || !gnomon_is_number(texel.y)) return 0.0;
     if (!(texel.y > 0.0 && z > 0.0)) return 0.0;
     precise float e = (texel.x - 1e-45) * 0.9999997;
     precise float m = (texel.y + 1e-45) * 1.0000002;
@@ -61,8 +64,8 @@ float gnomon_shadow(sampler2D map, ivec2 at, float z) { return gnomon_shadow(vec
 float gnomon_shadow_at(sampler2D map, vec2 position, float z) {
     ivec2 size = textureSize(map, 0);
     vec2 end = vec2(size) + 1.0;
-    bool here = position.x > -1.0 && position.y > -1.0 && position.x < end.x && position.y < end.y;
-    if (!here) return 0.0; // or no number
+    if (!gnomon_is_number(position.x) || !gnomon_is_number(position.y)) return 0.0;
+    if (position.x <= -1.0 || position.y <= -1.0 || position.x >= end.x || position.y >= end.y) return 0.0;
     ivec2 fine = (ivec2(floor(512.0 * position)) - 255) >> 1; // from the centre of texel 0
     ivec2 at = fine >> 8;
     uvec2 right = uvec2(fine & 255), left = 256u - right;
@@ -70,5 +73,5 @@ float gnomon_shadow_at(sampler2D map, vec2 position, float z) {
     sum = sum + float(right.x * left.y) * gnomon_read(map, size, at + ivec2(1, 0));
     sum = sum + float(left.x * right.y) * gnomon_read(map, size, at + ivec2(0, 1));
     sum = sum + float(right.x * right.y) * gnomon_read(map, size, at + ivec2(1, 1));
-    return gnomon_shadow(vec2(sum) / 65536.0, z);
+    return gnomon_shadow(vec2(sum) * 0.0000152587890625, z);
 }

@@ -37,23 +37,27 @@ bool gnomon_exceeds(float a, float b, float c) {
     return low != c_low && (low > c_low) != below;
 }
 
-// a / b, to the nearest float, where a driver's own quotient may be some last places off
-float gnomon_divide(float a, float b) {
-    precise float inverse = 1.0 / b, share = a * inverse;
-    precise float high = uintBitsToFloat(floatBitsToUint(share) & 0xFFFFF000u), low = share - high;
-    precise float b_high = uintBitsToFloat(floatBitsToUint(b) & 0xFFFFF000u), b_low = b - b_high;
+bool gnomon_is_number(float v) { return (floatBitsToUint(v) & 0x7FFFFFFFu) <= 0x7F800000u; }
+
+// a / b, to the nearest float; inverse is 1 / b, which drivers compute with an error of some last places
+float gnomon_divide(float a, float b, float inverse) {
+    uint bits = floatBitsToUint(a * inverse) & 0xFFFFFFFEu; // of the share, or it were a product that can be fused
+    float share = uintBitsToFloat(bits), high = uintBitsToFloat(bits & 0xFFFFF000u), low = share - high;
+    float b_high = uintBitsToFloat(floatBitsToUint(b) & 0xFFFFF000u), b_low = b - b_high;
     precise float rest = ((a - high * b_high) - high * b_low) - low * b_high - low * b_low; // exact, be it fused or not
-    return share + rest * inverse;
+    precise float quotient = share + rest * inverse;
+    return quotient;
 }
 
 // intensity of the shadow on a receiver at depth z, by the numbers of a filtered texel in codes
 float gnomon_shadow(vec2 texel, float z) {
+    if (!gnomon_is_number(z)) return 0.0;
     if (!(texel.y > 0.0 && z > 0.0)) return 0.0;
     precise float e = texel.x - 0.5;
     precise float m = texel.y + 0.5;
     precise float nearer_z = z - 0.0019608738;
     if (!(nearer_z < 0.5 ? gnomon_exceeds(m, nearer_z, m - e) : gnomon_exceeds(-m, 1.0 - nearer_z, -e))) return 0.0;
-    precise float darkness = gnomon_divide(texel.y, 255.0);
+    precise float darkness = gnomon_divide(texel.y, 255.0, 0.003921569);
     return darkness > 0.0 ? (darkness < 1.0 ? darkness : 1.0) : 0.0;
 }
 
@@ -71,8 +75,8 @@ float gnomon_shadow(sampler2D map, ivec2 at, float z) { return gnomon_shadow(vec
 float gnomon_shadow_at(sampler2D map, vec2 position, float z) {
     ivec2 size = textureSize(map, 0);
     vec2 end = vec2(size) + 1.0;
-    bool here = position.x > -1.0 && position.y > -1.0 && position.x < end.x && position.y < end.y;
-    if (!here) return 0.0; // or no number
+    if (!gnomon_is_number(position.x) || !gnomon_is_number(position.y)) return 0.0;
+    if (position.x <= -1.0 || position.y <= -1.0 || position.x >= end.x || position.y >= end.y) return 0.0;
     ivec2 fine = (ivec2(floor(512.0 * position)) - 255) >> 1; // from the centre of texel 0
     ivec2 at = fine >> 8;
     uvec2 right = uvec2(fine & 255), left = 256u - right;
@@ -80,7 +84,7 @@ float gnomon_shadow_at(sampler2D map, vec2 position, float z) {
     sum = sum + (right.x * left.y) * gnomon_read(map, size, at + ivec2(1, 0));
     sum = sum + (left.x * right.y) * gnomon_read(map, size, at + ivec2(0, 1));
     sum = sum + (right.x * right.y) * gnomon_read(map, size, at + ivec2(1, 1));
-    return gnomon_shadow(vec2(sum) / 65536.0, z);
+    return gnomon_shadow(vec2(sum) * 0.0000152587890625, z);
 }
 
 uniform sampler2D gnomon_map;

@@ -15,7 +15,7 @@ uint gnomon_nearest(uvec2 sum) {
 }
 
 uvec2 gnomon_low = uvec2(0), gnomon_high = uvec2(0); // sums of the low and the high 16 bits
-int gnomon_width = 0; // of the map
+int gnomon_width = 0; // the map's
 
 uvec2 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);

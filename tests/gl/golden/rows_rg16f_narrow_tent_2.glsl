@@ -12,26 +12,27 @@ float gnomon_half(float v) {
     if (size < 0x33000000u) return uintBitsToFloat(sign);                        // less than half of the least half
     if (size < 0x38800000u) {                                                    // a multiple of 2^-24
         uint units = gnomon_nearest_even((size & 0x7FFFFFu) | 0x800000u, 126 - int(size >> 23));
-        return (sign != 0u ? -1.0 : 1.0) * float(units) / 16777216.0;
+        return (sign != 0u ? -1.0 : 1.0) * float(units) * 0.000000059604644775390625;
     }
     size = gnomon_nearest_even(size, 13) << 13;
     return uintBitsToFloat(sign | (size >= 0x47800000u ? 0x7F800000u : size)); // beyond the last half is infinity
 }
 
-// a / b, to the nearest float, where a driver's own quotient may be some last places off
-float gnomon_divide(float a, float b) {
-    precise float inverse = 1.0 / b, share = a * inverse;
-    precise float high = uintBitsToFloat(floatBitsToUint(share) & 0xFFFFF000u), low = share - high;
-    precise float b_high = uintBitsToFloat(floatBitsToUint(b) & 0xFFFFF000u), b_low = b - b_high;
+// a / b, to the nearest float; inverse is 1 / b, which drivers compute with an error of some last places
+float gnomon_divide(float a, float b, float inverse) {
+    uint bits = floatBitsToUint(a * inverse) & 0xFFFFFFFEu; // of the share, or it were a product that can be fused
+    float share = uintBitsToFloat(bits), high = uintBitsToFloat(bits & 0xFFFFF000u), low = share - high;
+    float b_high = uintBitsToFloat(floatBitsToUint(b) & 0xFFFFF000u), b_low = b - b_high;
     precise float rest = ((a - high * b_high) - high * b_low) - low * b_high - low * b_low; // exact, be it fused or not
-    return share + rest * inverse;
+    precise float quotient = share + rest * inverse;
+    return quotient;
 }
 
 uniform sampler2D gnomon_sums;
 layout(location = 0) out vec2 gnomon_texel;
 
 precise vec2 gnomon_sum = vec2(0);
-int gnomon_width = 0; // of the map
+int gnomon_width = 0; // the map's
 
 vec2 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
@@ -50,6 +51,6 @@ void main() {
     gnomon_sum = 0.1875 * gnomon_at(0);
     gnomon_add(0.125, 1);
     gnomon_add(0.0625, 2);
-    gnomon_sum = vec2(gnomon_divide(gnomon_sum.x, 0.31640625), gnomon_divide(gnomon_sum.y, 0.31640625));
+    gnomon_sum = vec2(gnomon_divide(gnomon_sum.x, 0.31640625, 3.1604939), gnomon_divide(gnomon_sum.y, 0.31640625, 3.1604939));
     gnomon_texel = vec2(gnomon_half(gnomon_sum.x), gnomon_half(gnomon_sum.y));
 }

@@ -3,7 +3,7 @@ uniform usampler2D gnomon_sums;
 layout(location = 0) out vec4 gnomon_texel;
 
 precise vec4 gnomon_sum = vec4(0);
-int gnomon_width = 0; // of the map
+int gnomon_width = 0; // the map's
 
 vec4 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);

@@ -3,7 +3,7 @@ uniform sampler2D gnomon_sums;
 layout(location = 0) out vec4 gnomon_texel;
 
 uvec4 gnomon_sum = uvec4(0);
-int gnomon_width = 0; // of the map
+int gnomon_width = 0; // the map's
 
 uvec4 gnomon_at(int away) {
     ivec2 at = ivec2(gl_FragCoord) + ivec2(away, 0);
