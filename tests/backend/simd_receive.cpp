@@ -101,16 +101,20 @@ TEST_CASE_TEMPLATE("lanes decide floats and halves exactly: at the float where a
                    "smallest masks and depths",
                    Texel, gnomon::rg32f, gnomon::rg16f) {
     dice roll(405);
-    const gnomon::rule rules[] = {
-        {}, {.caster = gnomon::unbiased}, {.caster = gnomon::towards_shadow}, {.caster = {.caster_is_code = true}}};
+    const gnomon::rule rules[] = {{},
+                                  {.caster = gnomon::unbiased},
+                                  {.caster = gnomon::towards_shadow},
+                                  {.caster = {.caster_is_code = true}},
+                                  {.caster = {.depth = 1.5f}}};
     for (const gnomon::rule& r : rules) {
         std::vector<Texel> texels;
         std::vector<float> z;
         for (int i = 0; i < 3000; ++i) {
-            // Masks down to nothing; depths that are nothing, all of the mask, or a share of it, of few or many bits.
+            // Masks down to nothing; depths that are nothing, all of the mask, or a share or some of it, of few or many bits.
             const float mask = std::ldexp(0.5f + roll.unit() / 2.0f, roll.one_in(2) ? -roll(0, 3) : -roll(0, 149));
-            const float share = roll.one_in(4) ? static_cast<float>(roll(0, 1))
-                                               : (roll.one_in(2) ? roll.unit() : static_cast<float>(roll(0, 16)) / 16.0f);
+            float share = roll.one_in(4) ? static_cast<float>(roll(0, 1))
+                                         : (roll.one_in(2) ? roll.unit() : static_cast<float>(roll(0, 16)) / 16.0f);
+            if (roll.one_in(4)) share *= 4.0f; // no caster, but what a texel may hold
             Texel t{};
             t.stored[1] = Texel::channel_type::encode(static_cast<double>(mask));
             t.stored[0] = Texel::channel_type::encode(static_cast<double>(Texel::channel_type::code(t.stored[1])) *
