@@ -105,6 +105,7 @@ TEST_CASE_TEMPLATE("lanes decide floats and halves exactly: at the float where a
                                   {.caster = gnomon::unbiased},
                                   {.caster = gnomon::towards_shadow},
                                   {.caster = {.caster_is_code = true}},
+                                  {.caster = {.roundings = 0, .caster_is_code = true}},
                                   {.caster = {.depth = 1.5f}}};
     for (const gnomon::rule& r : rules) {
         std::vector<Texel> texels;
@@ -115,6 +116,8 @@ TEST_CASE_TEMPLATE("lanes decide floats and halves exactly: at the float where a
             float share = roll.one_in(4) ? static_cast<float>(roll(0, 1))
                                          : (roll.one_in(2) ? roll.unit() : static_cast<float>(roll(0, 16)) / 16.0f);
             if (roll.one_in(4)) share *= 4.0f; // no caster, but what a texel may hold
+            constexpr float place = std::same_as<Texel, gnomon::rg32f> ? 0x1p-23f : 0x1p-10f;
+            if (roll.one_in(4)) share = 1.0f + static_cast<float>(roll(0, 16)) * place; // some bias makes the two one
             Texel t{};
             t.stored[1] = Texel::channel_type::encode(static_cast<double>(mask));
             t.stored[0] = Texel::channel_type::encode(static_cast<double>(Texel::channel_type::code(t.stored[1])) *

@@ -38,7 +38,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     floats depth_less, depth_share, mask_more, mask_share, nearer; ///< the bias
     floats before;                                                 ///< a depth in codes there, once moved, is lit
     floats least_mask;                                             ///< what float decides of
-    bool exact_zero;                                               ///< e = m may be, and a depth that is next to nothing tell
+    bool next_to_nothing; ///< may a float depth be, once moved? Then it tells where e = m, and the scalar loop sees to it.
     const rule* by_rule;
 
     [[nodiscard]] static decision of(const rule& r) noexcept {
@@ -52,7 +52,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                 Isa::repeat(moved),
                 Isa::repeat(greater(0.0f, -moved)),
                 Isa::repeat(whole_codes ? 0.0f : (moved > 1.0f && std::same_as<Depth, float> ? nothing : 0x1p-50f)),
-                r.caster.towards != bias_towards::light || r.caster.roundings < 1,
+                moved < 0x1p-26f && moved > -0x1p-26f, // beyond, what is left of a difference is more
                 &r};
     }
 
@@ -90,7 +90,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         shadowed = Isa::both(Isa::positive(m, beyond, rest), Isa::both(there, Isa::greater(depth, zero)));
         if (by.by_rule->lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
         return !Isa::any(Isa::both(there, Isa::not_greater(m, by.least_mask))) &&
-               !(by.exact_zero && Isa::any(Isa::both(Isa::greater(z, zero), Isa::greater(Isa::repeat(0x1p-50f), z))));
+               !(by.next_to_nothing && Isa::any(Isa::both(Isa::greater(z, zero), Isa::greater(Isa::repeat(0x1p-50f), z))));
     }
     /// m z + (e-m) 65535 > 0, z in codes. Three roundings are wrong by 3 * 2^-24 * 65535 m < m/64 at most where the two cancel; so
     /// within m/16 of nothing the sum says nothing.
