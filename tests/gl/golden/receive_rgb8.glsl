@@ -41,7 +41,7 @@ bool gnomon_is_number(float v) { return (floatBitsToUint(v) & 0x7FFFFFFFu) <= 0x
 
 // a / b, to the nearest float; inverse is 1 / b, which drivers compute with an error of some last places
 float gnomon_divide(float a, float b, float inverse) {
-    uint bits = floatBitsToUint(a * inverse) & 0xFFFFFFFEu; // of the share, or it were a product that can be fused
+    uint bits = floatBitsToUint(a * inverse) & 0xFFFFFFFEu; // the share as bits, for a product could be fused
     float share = uintBitsToFloat(bits), high = uintBitsToFloat(bits & 0xFFFFF000u), low = share - high;
     float b_high = uintBitsToFloat(floatBitsToUint(b) & 0xFFFFF000u), b_low = b - b_high;
     precise float rest = ((a - high * b_high) - high * b_low) - low * b_high - low * b_low; // exact, be it fused or not
