@@ -110,7 +110,7 @@ TEST_CASE("a temporary has the type of its value and a name of its own, and stan
     CHECK((w.is_wide() && w.text() == "w"));
     const truth lit = let("lit", sum > again);
     CHECK(lit.where() == &body);
-    CHECK(let("q", a + number(3)).text() == "q"); // which nobody uses
+    CHECK(let("q", a + number(3)).text() == "q");       // which nobody uses
     body.say("if (lit) return w + q0 - q9 * qa / aq;"); // other names
     CHECK(body.text() == "    precise float t = a + 2.0;\n    precise float t_2 = a - 2.0;\n"
                          "    precise vec2 w = v + vec2(b, 0.0);\n    bool lit = t > t_2;\n"
