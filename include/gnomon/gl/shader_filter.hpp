@@ -268,11 +268,8 @@ void gnomon_add(@number weight, int away) {
                              : "    gnomon_sum += weight * gnomon_at(away);\n";
     text += "}\n\nvoid main() {\n    gnomon_width = textureSize(gnomon_sums, 0).x;\n@taps";
     if constexpr (!of::whole_codes) {
-        if (divides) {
-            text += "    gnomon_sum = ";
-            const std::string by = ", " + detail::literal(whole) + ", " + detail::literal(1.0f / whole) + ")";
-            text += detail::each_component<Texel>("gnomon_divide(gnomon_sum.", by) + ";\n";
-        }
+        const std::string by = ", " + detail::literal(whole) + ", " + detail::literal(1.0f / whole) + ")";
+        if (divides) text += "    gnomon_sum = " + detail::each_component<Texel>("gnomon_divide(gnomon_sum.", by) + ";\n";
         text += "    gnomon_texel = ";
         const std::string halves = detail::each_component<Texel>("gnomon_half(gnomon_sum.", ")");
         text += is_half ? halves : "gnomon_sum";
