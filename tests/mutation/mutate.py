@@ -97,7 +97,7 @@ class Tree:
         self.headers = sorted(p.relative_to(self.include).as_posix() for p in self.include.rglob("*.hpp"))
         self.text = {header: (self.include / header).read_text() for header in self.headers}
         self.sources = [Test(self, p) for p in sorted(self.tests.glob("*/*.cpp")) if p.parent.name not in ("compile_fail", "coverage", "fuzz", "golden", "odr")]
-        self.sources += [Test(self, t.path, isa) for t in self.sources if t.has_many_isas for isa in [ANY_ISA, *ONE_ISA.values()]]
+        self.sources += [Test(self, t.path, isa) for t in self.sources if t.has_many_isas for isa in sorted({ANY_ISA, *ONE_ISA.values()})]
         self.refusals = [Test(self, p) for p in sorted((self.tests / "compile_fail").glob("*.cpp"))]
         self.flavours, self.crowds, self.lock, self.alone = {}, {}, threading.Lock(), False
 
