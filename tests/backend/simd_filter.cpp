@@ -1,6 +1,10 @@
 // The lanes against the oracle, bit for bit: every target this processor has, every width up to two registers and a bit, every
 // alignment, regions in the middle of something, and floats that are none.
 #include <gnomon/backend/simd.hpp>
+#include <gnomon/backend/simd_box.hpp>
+#include <gnomon/backend/simd_filter.hpp>
+#include <gnomon/backend/simd_wide.hpp>
+#include <gnomon/backend/simd_words.hpp>
 
 #include "../support/bits.hpp"
 #include "../support/filtering.hpp"

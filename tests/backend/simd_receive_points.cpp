@@ -1,6 +1,7 @@
 // Receivers anywhere, blended and decided in lanes, against the oracle, bit for bit: every position there is around a texel, on the map,
 // across each of its borders and far away; every width, any stride and rule; and nothing beside the map is read.
 #include <gnomon/backend/simd.hpp>
+#include <gnomon/backend/simd_points.hpp>
 
 #include "../support/bits.hpp"
 #include "../support/formats.hpp"
