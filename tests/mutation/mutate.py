@@ -99,10 +99,13 @@ class Tree:
         self.sources = [Test(self, p) for p in sorted(self.tests.glob("*/*.cpp")) if p.parent.name not in ("compile_fail", "coverage", "fuzz", "golden", "odr")]
         self.sources += [Test(self, t.path, isa) for t in self.sources if t.has_many_isas for isa in sorted({ANY_ISA, *ONE_ISA.values()})]
         self.refusals = [Test(self, p) for p in sorted((self.tests / "compile_fail").glob("*.cpp"))]
-        self.flavours, self.crowds, self.lock, self.alone = {}, {}, threading.Lock(), False
+        self.flavours, self.crowds, self.lock = {}, {}, threading.Lock()
+        self.alone = self.near = False # as the options say
 
     def concerned(self, header):
-        return {t for t in self.sources if header in t.reaches and t.isa in (None, ONE_ISA.get(header, ANY_ISA))}
+        """The tests that reach a header; those of many sets of lanes twice, with one set and with all, or if it must be near with one."""
+        isas = (None, ONE_ISA.get(header, ANY_ISA))
+        return {t for t in self.sources if header in t.reaches and t.isa in isas and not (self.near and t.has_many_isas and not t.isa)}
 
     def crowd(self, header, mutant, *options):
         """The one that a mutant is in."""
@@ -118,7 +121,7 @@ class Tree:
         """(answer, what said so) of the tests near the header, then under sanitizers; and for both the tests that called the mutant and
         passed."""
         answer, called = self.crowd(header, mutant).ask(mutant)
-        if answer[0] != SURVIVED or not called:
+        if answer[0] != SURVIVED or not called or self.near:
             return answer, called, set()
         (answer, said), sanitized = self.crowd(header, mutant, *SANITIZERS).ask(mutant, called)
         return (answer, f"{said} (sanitizers)"), called, sanitized
@@ -254,7 +257,7 @@ def misused(tree, header, overlay):
     return ""
 
 
-def judge(tree, header, mutant, near):
+def judge(tree, header, mutant):
     """The answer for one mutant: the first test that turns red, or that none does."""
     answer, passed, sanitized = ((SURVIVED, ""), set(), set()) if tree.alone else tree.ask_together(header, mutant)
     if answer[0] != SURVIVED:
@@ -270,7 +273,7 @@ def judge(tree, header, mutant, near):
         concerned = tree.concerned(header)
         of_folder = {t for t in concerned if t.is_near(header)}
         answer = ask_each(tree, header, set(of_folder), overlay, work, passed)
-        if answer[0] != SURVIVED or near:
+        if answer[0] != SURVIVED or tree.near:
             return answer
         one_isa = [t for t in of_folder if t.has_many_isas == bool(t.isa)]
         own = [t for t in one_isa if t.is_of(header)]
@@ -353,14 +356,14 @@ def run(tree, given):
     left = collections.Counter(header for header, _ in wanted)
     asked = {h for h in left if len({m.text for there, m in wanted if there == h}) == len(mutants.mutants_of(tree.text[h]))}
 
-    def survivor_key(header, near):
-        return digest(header, str(near), *sorted(t.key for t in [*tree.concerned(header), *tree.refusals]))
+    def survivor_key(header):
+        return digest(header, str(tree.near), *sorted(t.key for t in [*tree.concerned(header), *tree.refusals]))
 
     def one(job):
         header, mutant = job
         known = (header, mutant.before, mutant.after) in explained.reasons
         soon = given.quick or (known and not given.alone)
-        found_key, survived_key, name = digest(header, tree.text[header]), survivor_key(header, given.near), digest(mutant.text)
+        found_key, survived_key, name = digest(header, tree.text[header]), survivor_key(header), digest(mutant.text)
         old = kept.get((found_key, name)) or kept.get((survived_key, name))
         start = time.monotonic()
         if not old and known and soon:
@@ -369,7 +372,7 @@ def run(tree, given):
             (answer, said), called, _ = tree.ask_together(header, mutant)
             answer = LEFT_OUT if answer == SURVIVED and not called else answer
         else:
-            answer, said = old[:2] if old else judge(tree, header, mutant, given.near)
+            answer, said = old[:2] if old else judge(tree, header, mutant)
         seconds = old[2] if old else time.monotonic() - start
         with lock:
             if not old and not (soon and answer in (SURVIVED, LEFT_OUT)):
@@ -438,7 +441,7 @@ def main(line=None):
     parser.add_argument("only", nargs="*", metavar="PATH[:LINE]", help="headers or folders of include/; all of them if left out")
     parser.add_argument("--list", action="store_true", help="say how many mutants there are, and run none")
     parser.add_argument("--explained", action="store_true", help="say what survivors.txt explains and nobody can make, and run none")
-    parser.add_argument("--near", action="store_true", help="ask the tests of the header's own folder alone: quick, to work on these")
+    parser.add_argument("--near", action="store_true", help="ask the tests of the header's own folder alone, in one set of lanes: quick, to work on these")
     parser.add_argument("--quick", action="store_true", help="only what need not be compiled alone, by the tests of the header's own folder, then under sanitizers")
     parser.add_argument("--alone", action="store_true", help="compile each mutant by itself: slow, and says the same")
     parser.add_argument("--enter", action="store_true", help="enter in whole.txt the headers of which every mutant is found or explained")
@@ -450,7 +453,7 @@ def main(line=None):
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2], help="the project; this one if left out")
     given = parser.parse_args(line)
     tree = Tree(given.root.resolve(), given.compiler)
-    tree.alone = given.alone
+    tree.alone, tree.near = given.alone, given.near
     if given.explained:
         complaints = Explained(tree.tests / "mutation" / "survivors.txt").impossible(tree)
         print("".join(f"STALE {complaint}\n" for complaint in complaints), end="")
