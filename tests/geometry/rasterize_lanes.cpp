@@ -263,7 +263,7 @@ TEST_CASE_TEMPLATE("lanes cast and bound rows of several pieces as the scalar ra
 }
 
 TEST_CASE_TEMPLATE("in lanes too a receiver on the near plane ends the shadow of a caster there, and one before it ends none",
-                   Texel, rgb8, rgb32f) {
+                   Texel, rgb8, rgb32f, test::ratio_rgba16) {
     for (const double depth : {0.0, -0.25}) {
         mesh_data sheet;
         sheet.add({-256, -256, depth}, {80000, -256, depth}, {-256, 80000, depth});
