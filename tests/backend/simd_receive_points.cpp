@@ -47,10 +47,10 @@ struct points {
 /// Around the map: on every 1/512 texel and a float beside it, nowhere, and at depths around that of the blend.
 points some_points(dice& roll, const image<rg8>& map, int count) {
     constexpr float odd[] = {
-        test::infinity<float>, -test::infinity<float>, test::nan<float>, 3e38f, -3e38f, 4194304.0f, -0.0f, 1e-30f, -1e-30f};
+        test::infinity<float>, -test::infinity<float>, test::nan<float>, 3e38f, -3e38f, 4194304.0f, 1.5f, -0.0f, 1e-30f, -1e-30f};
     points p;
     const auto position = [&](int size) {
-        if (roll.one_in(40)) return odd[roll(0, 8)];
+        if (roll.one_in(40)) return odd[roll(0, 9)];
         const float at = static_cast<float>(roll(-2 * 512, (size + 2) * 512)) / 512.0f;
         return roll.one_in(2) ? at : (roll.one_in(2) ? test::up(at) : test::down(at));
     };
@@ -60,7 +60,7 @@ points some_points(dice& roll, const image<rg8>& map, int count) {
         const auto f = gnomon::sample(map.view(), p.x.back(), p.y.back());
         const float s = gnomon::caster_depth(f),
                     moved = roll.one_in(2) ? 0.5f / 255.0f + 0.5f / 255.0f / static_cast<float>(f.mask() + 0.5) : 0.0f;
-        const float z = roll.one_in(8) ? odd[roll(0, 8)]
+        const float z = roll.one_in(8) ? odd[roll(0, 9)]
                                        : (roll.one_in(3) ? roll.unit() : s + moved + static_cast<float>(roll(-2, 2)) * 0x1p-24f);
         p.z.push_back(z);
         p.codes.push_back(roll.one_in(16)
@@ -131,6 +131,18 @@ TEST_CASE("every position within a texel and its neighbours, to 1/512, gives the
     for_each_isa([&]<typename Isa>() {
         gnomon::receive(simd<Isa>{}, map.view(), p.x, p.y, p.z, made, {.caster = gnomon::unbiased});
         CHECK(expected == made);
+    });
+}
+
+TEST_CASE("the least mask that a blend can have is an intensity, for depths in codes too") {
+    image<rg8> map({3, 3}, rg8::clear());
+    map(1, 1) = {{1, 1}};
+    const std::vector<float> at(8, 0.5f + 1.0f / 256);
+    const std::vector<std::uint16_t> deepest(at.size(), 65535);
+    std::vector<float> made(at.size());
+    for_each_isa([&]<typename Isa>() {
+        gnomon::receive(simd<Isa>{}, map.view(), at, at, deepest, made, {.caster = gnomon::unbiased});
+        CHECK(made == std::vector<float>(at.size(), 1.0f / (255 * 65536)));
     });
 }
 
