@@ -146,6 +146,18 @@ TEST_CASE("the least mask that a blend can have is an intensity, for depths in c
     });
 }
 
+TEST_CASE("a receiver that its bias moves behind every caster is shadowed by those on the far plane, for depths in codes too") {
+    const image<rg8> map({3, 3}, rg8::caster(1.0f));
+    const std::vector<float> at(64, 1.5f);
+    const std::vector<std::uint16_t> deepest(at.size(), 65535);
+    std::vector<float> made(at.size());
+    for_each_isa([&]<typename Isa>() {
+        gnomon::receive(simd<Isa>{}, map.view(), at, at, deepest, made,
+                        {.caster = {.roundings = 1, .depth = -0.001f, .caster_is_code = true}});
+        CHECK(made == std::vector<float>(at.size(), 1.0f));
+    });
+}
+
 TEST_CASE("receivers anywhere: every width to 67, any stride, in place, and on a map whose rows go upwards") {
     dice roll(433);
     const image<rg8> map = test::noise<rg8>(roll, {40, 30}, 2);
