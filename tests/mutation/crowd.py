@@ -88,7 +88,7 @@ class Crowd:
         others = [t for t in near if t not in own]
         if self.options:
             others = [] if own else sorted(callers, key=lambda t: t.path.stat().st_size)[:1]
-        for tests in (own,) if own_alone else (own, others, all_lanes):
+        for tests in (own,) if own_alone or (own and self.tree.near) else (own, others, all_lanes):
             if tests is not own and own and not passed:
                 break # what none of its own calls is computed by the compiler, as constants are
             todo = {part for t in tests if t in self.programs for part in self.program(t).parts}

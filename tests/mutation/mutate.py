@@ -260,7 +260,7 @@ def misused(tree, header, overlay):
 def judge(tree, header, mutant):
     """The answer for one mutant: the first test that turns red, or that none does."""
     answer, passed, sanitized = ((SURVIVED, ""), set(), set()) if tree.alone else tree.ask_together(header, mutant)
-    if answer[0] != SURVIVED:
+    if answer[0] != SURVIVED or (tree.near and passed):
         return answer
     with tempfile.TemporaryDirectory(dir=tree.build) as folder:
         work = pathlib.Path(folder)
@@ -441,7 +441,7 @@ def main(line=None):
     parser.add_argument("only", nargs="*", metavar="PATH[:LINE]", help="headers or folders of include/; all of them if left out")
     parser.add_argument("--list", action="store_true", help="say how many mutants there are, and run none")
     parser.add_argument("--explained", action="store_true", help="say what survivors.txt explains and nobody can make, and run none")
-    parser.add_argument("--near", action="store_true", help="ask the tests of the header's own folder alone, in one set of lanes: quick, to work on these")
+    parser.add_argument("--near", action="store_true", help="ask the header's own tests alone, or those of its folder if it has none, in one set of lanes: quick, to work on these")
     parser.add_argument("--quick", action="store_true", help="only what need not be compiled alone, by the tests of the header's own folder, then under sanitizers")
     parser.add_argument("--alone", action="store_true", help="compile each mutant by itself: slow, and says the same")
     parser.add_argument("--enter", action="store_true", help="enter in whole.txt the headers of which every mutant is found or explained")
