@@ -69,6 +69,13 @@ template <typename Isa, typename Kernel, typename Texel> using floats = gnomon::
 
 struct own_channel : gnomon::unorm16 {}; // lanes cannot know what a user's channel does
 
+/// As many taps as lanes sum by fours, but with a weight that is no signed byte.
+struct steep {
+    static constexpr int radius = 6;
+    static constexpr int total = 256;
+    static constexpr std::array weights{4, 6, 8, 12, 16, 18, 128, 18, 16, 12, 8, 6, 4};
+};
+
 } // namespace
 
 TEST_CASE_TEMPLATE("lanes filter as the oracle does, for every width to 67 and at every alignment", Texel, rg8, gnomon::rg16,
@@ -120,6 +127,7 @@ TEST_CASE(
         const image_view<const gnomon::rg16> of_words = words.view();
         const image_view<const test::paper16> of_papers = papers.view();
         CHECK(differing<Isa, tent<1>>(of_bytes, whole(bytes.size())) == 0); // 128 is no signed byte
+        CHECK(differing<Isa, steep>(of_bytes, whole(bytes.size())) == 0);
         CHECK(differing<Isa, gnomon::fast<gaussian<32>>>(of_bytes, whole(bytes.size())) == 0);
         CHECK(differing<Isa, gnomon::fast<tent<1>>>(of_words, whole(words.size())) == 0);
         CHECK(differing<Isa, gnomon::fast<binomial<17>>>(of_words, whole(words.size())) == 0);

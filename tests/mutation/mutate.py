@@ -34,9 +34,12 @@ ELSEWHERE = {"gnomon/simd/neon.hpp": "it is for another processor: ./tests/run -
              "gnomon/simd/wasm.hpp": "it is for another processor: ./tests/run --matrix tests-wasm",
              "gnomon/gl/enums.hpp": "tests/architecture/gl_enums.py holds each number against Khronos' header"}
 # The lanes that are soonest compiled, for the mutants of a header. Tests that include support/one_isa.hpp leave out all others.
+PROCESSOR = set(re.findall(r"\bavx\w*", pathlib.Path("/proc/cpuinfo").read_text()))
+ANY_ISA = "avx2" if "avx2" in PROCESSOR else "emulated<48>" # twice as long to compile
+ALL_THERE_IS = "avx512" if "avx512_vnni" in PROCESSOR else "emulated<48>" # has what lanes need not have
 ONE_ISA = {"gnomon/simd/sse2.hpp": "sse2", "gnomon/simd/avx2.hpp": "avx2", "gnomon/simd/avx512.hpp": "avx512",
-           "gnomon/simd/emulated.hpp": "avx512"} # against which emulated<64> is held
-ANY_ISA = "avx2" if re.search(r"\bavx2\b", pathlib.Path("/proc/cpuinfo").read_text()) else "emulated<48>" # twice as long to compile
+           "gnomon/simd/emulated.hpp": "avx512", # against which emulated<64> is held
+           "gnomon/backend/simd_wide.hpp": ALL_THERE_IS, "gnomon/backend/simd_words.hpp": ALL_THERE_IS}
 LEFT_OUT = "left out"
 
 
