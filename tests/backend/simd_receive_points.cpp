@@ -234,6 +234,25 @@ TEST_CASE("lanes blend on maps of 2 to 2^21 texels a side whose offsets fit 32 b
     }
 }
 
+TEST_CASE("receivers anywhere: the shortest span counts in lanes too") {
+    dice roll(435);
+    const image<rg8> map = test::noise<rg8>(roll, {40, 30}, 2);
+    const points p = some_points(roll, map, 200);
+    for (int shortest = 0; shortest < 4; ++shortest) {
+        const auto first = [shortest](auto& all, int index) { return strided_span(all.data(), index == shortest ? 99 : 200); };
+        const auto x = first(p.x, 0), y = first(p.y, 1), z = first(p.z, 2);
+        std::vector<float> expected(p.z.size(), -7.0f);
+        const std::vector<float> before = expected;
+        gnomon::receive(map.view(), x, y, z, first(expected, 3));
+        CHECK(expected[99] == -7.0f);
+        for_each_isa([&]<typename Isa>() {
+            std::vector<float> made = before;
+            gnomon::receive(simd<Isa>{}, map.view(), x, y, z, first(made, 3));
+            CHECK(made == expected);
+        });
+    }
+}
+
 TEST_CASE("lanes read nothing beside the map: its memory ends where its last texel does") {
     dice roll(434);
     for (const extent size : {extent{2, 2}, {5, 3}, {64, 2}, {2, 9}}) { // the address sanitizer watches; so do the bits, without it
