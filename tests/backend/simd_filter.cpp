@@ -69,11 +69,11 @@ template <typename Isa, typename Kernel, typename Texel> using floats = gnomon::
 
 struct own_channel : gnomon::unorm16 {}; // lanes cannot know what a user's channel does
 
-/// As many taps as lanes sum by fours, but with a weight that is no signed byte.
+/// As many taps as lanes sum by fours, but with a weight that in 1/256 is no signed byte.
 struct steep {
     static constexpr int radius = 6;
-    static constexpr int total = 256;
-    static constexpr std::array weights{4, 6, 8, 12, 16, 18, 128, 18, 16, 12, 8, 6, 4};
+    static constexpr int total = 128;
+    static constexpr std::array weights{2, 3, 4, 6, 8, 9, 64, 9, 8, 6, 4, 3, 2};
 };
 
 } // namespace
