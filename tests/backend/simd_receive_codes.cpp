@@ -56,6 +56,10 @@ const std::vector<rule>& rules() {
         {.caster = {.towards = gnomon::bias_towards::shadow, .roundings = 0, .depth = -2.0f}},
         {.caster = {.depth = 2.0f}},
         {.caster = {.caster_is_code = true}},
+        {.caster = {.roundings = 0, .depth = 1.0f / 65535.0f, .caster_is_code = true}}, // one code
+        {.caster = {.roundings = 2}},
+        {.caster = {.towards = gnomon::bias_towards::shadow, .roundings = 1 << 25}},
+        {.caster = {.roundings = 1 << 25, .caster_is_code = true}},
         {.lit_beyond = true},
     };
     return all;
@@ -177,6 +181,27 @@ TEST_CASE_TEMPLATE(
         for_each_isa([&]<typename Isa>() {
             gnomon::receive(simd<Isa>{}, texels, z, made, r);
             CHECK(std::memcmp(expected.data(), made.data(), made.size() * sizeof made[0]) == 0);
+        });
+    }
+}
+
+TEST_CASE_TEMPLATE("a mask that a bias takes away is nothing to lanes too, whatever depth a texel holds", Row, float_row_of_codes,
+                   half_row_to_floats) {
+    using Texel = typename Row::texel;
+    std::vector<Texel> texels;
+    std::vector<std::uint16_t> z;
+    for (int exponent = -25; exponent < 0; ++exponent)
+        for (const double e : {-1.0, -0x1p-10, 0.0})
+            for (const int code : {1, 30000, 65534, 65535}) {
+                texels.push_back({{Texel::channel_type::encode(e), Texel::channel_type::encode(std::ldexp(1.0, exponent))}});
+                z.push_back(static_cast<std::uint16_t>(code));
+            }
+    for (const rule& r : rules()) {
+        std::vector<float> expected(z.size()), made(z.size());
+        gnomon::receive(texels, z, expected, r);
+        for_each_isa([&]<typename Isa>() {
+            gnomon::receive(simd<Isa>{}, texels, z, made, r);
+            CHECK(expected == made);
         });
     }
 }

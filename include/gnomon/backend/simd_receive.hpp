@@ -167,7 +167,7 @@ template <typename Isa, texel_format Texel> struct byte_decision {
     [[nodiscard]] static byte_decision of(const rule& r) noexcept {
         const int codes = codes_towards_light<Texel>(r.caster);
         const bool light = r.caster.towards == bias_towards::light, shadow = r.caster.towards == bias_towards::shadow;
-        const int k = r.caster.roundings;
+        const int k = lesser(r.caster.roundings, 2 * 255); // which leave nothing of e, or of m, as more do
         return {words(codes > 0, codes),
                 words(codes < 0, -codes),
                 words(true, depth16::last + lesser(codes, 0)),
