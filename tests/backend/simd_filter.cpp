@@ -199,6 +199,26 @@ TEST_CASE("what is too large for the caches goes past them, whole registers wher
     });
 }
 
+TEST_CASE_TEMPLATE("a row that is made in pieces is the row", Texel, rg8, gnomon::rg16, gnomon::rgb8, gnomon::rg32f) {
+    using lanes = emulated<16>;
+    using pass = gnomon::on_any::filter_of<lanes, gnomon::fast<binomial<2>>, Texel>;
+    using storage = typename Texel::storage;
+    constexpr int count = (2 * pass::piece + 50) / Texel::channels * Texel::channels, plane = count + 100;
+    dice roll(408);
+    std::vector<typename pass::element> line(static_cast<std::size_t>(pass::planes * plane));
+    for (auto& sum : line) sum = static_cast<typename pass::element>(roll(-20000, 12000));
+    std::vector<storage> expected(static_cast<std::size_t>(count));
+    for (int at = 0; at < count; at += pass::step) {
+        const int i = gnomon::lesser(at, count - pass::step);
+        pass::row(line.data() + pass::place(i), plane, expected.data() + i);
+    }
+    for (const bool past_caches : {false, true}) {
+        std::vector<storage> made(expected.size());
+        gnomon::on_any::make_row<lanes, pass>(line.data(), plane, made.data(), count, past_caches);
+        CHECK(std::memcmp(made.data(), expected.data(), made.size() * sizeof(storage)) == 0);
+    }
+}
+
 TEST_CASE("a region partly or wholly off the map is to lanes what it is to the oracle") {
     const image<rg8> map({40, 5}, rg8::caster(0.5f));
     CHECK(differing<gnomon::best_isa, binomial<2>>(map.view(), {-9, -9, 90, 90}) == 0);

@@ -229,6 +229,23 @@ TEST_CASE("every mask is stored as the oracle stores it, as 8 bits, as 16 and as
     });
 }
 
+TEST_CASE("of rows the shortest span counts in lanes too") {
+    dice roll(424);
+    std::vector<rg8> texels(300);
+    fill_with_bits(roll, image_view<rg8>(texels.data(), {300, 1}));
+    const std::vector<std::uint16_t> z(300, 65535);
+    for (int shortest = 0; shortest < 3; ++shortest) {
+        const auto first = [shortest](auto& all, int index) { return strided_span(all.data(), index == shortest ? 199 : 300); };
+        for_each_isa([&]<typename Isa>() {
+            std::vector<std::uint8_t> expected(300, 77), made = expected;
+            gnomon::receive(first(texels, 0), first(z, 1), first(expected, 2));
+            gnomon::receive(simd<Isa>{}, first(texels, 0), first(z, 1), first(made, 2));
+            CHECK(expected[199] == 77);
+            CHECK(made == expected);
+        });
+    }
+}
+
 TEST_CASE_TEMPLATE("results may take the place of what they come from, in lanes as in the oracle", Row, byte_row, word_row,
                    float_row) {
     using Texel = typename Row::texel;
