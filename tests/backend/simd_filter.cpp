@@ -199,6 +199,40 @@ TEST_CASE("what is too large for the caches goes past them, whole registers wher
     });
 }
 
+namespace {
+/// The middle texel of a map of floats whose rows are all alike, and as high as the kernel.
+template <typename Isa> float middle_of_column(const std::array<float, 5>& rows) {
+    image<gnomon::rg32f> map({40, 5}), made({40, 5});
+    for_each_texel(whole(map.size()), [&](int x, int y) {
+        const float v = rows[static_cast<std::size_t>(y)];
+        map(x, y) = {{v, v}};
+    });
+    filter_scratch<gnomon::rg32f, binomial<2>> scratch(40);
+    simd<Isa>{}.filter_region(image_view<const gnomon::rg32f>(map.view()), made.view(), whole(map.size()), scratch);
+    return made(20, 2).stored[0];
+}
+} // namespace
+
+TEST_CASE("column sums of floats are rounded to 36 bits in lanes too, halves upwards, before they are summed across") {
+    // Sixteen times the middle texel: an odd float and half a last place more, less half a last place of 36 bits, and less `missing`
+    // of the bits that go. So it is the next float if 36 bits are rounded upwards, and else the odd one.
+    const float odd = 0.5f + 3 * 0x1p-24f;
+    for (int missing = -1; missing <= 2; ++missing)
+        for_each_isa([&]<typename Isa>() {
+            const float below = 0x1p-35f - static_cast<float>(missing) * 0x1p-51f;
+            CHECK(middle_of_column<Isa>({0x1p-23f - 0x1p-34f, odd, 0.0f, 0.0f, below}) ==
+                  (missing <= 0 ? test::up(odd) : odd) / 4.0f);
+        });
+}
+
+TEST_CASE("two floats that are each too small for a sum of doubles are not added up first in lanes either") {
+    const float odd = 0.5f + 3 * 0x1p-24f, small = 0x1p-52f - 0x1p-60f; // the sum lacks a last place of being rounded upwards
+    for_each_isa([&]<typename Isa>() {
+        CHECK(middle_of_column<Isa>({small, odd, 21845 * 0x1p-52f, 0x1p-25f - 0x1p-36f, small}) == odd / 4.0f);
+        CHECK(middle_of_column<Isa>({2 * small, odd, 21845 * 0x1p-52f, 0x1p-25f - 0x1p-36f, 0.0f}) == test::up(odd) / 4.0f);
+    });
+}
+
 TEST_CASE_TEMPLATE("a row that is made in pieces is the row", Texel, rg8, gnomon::rg16, gnomon::rgb8, gnomon::rg32f) {
     using lanes = emulated<16>;
     using pass = gnomon::on_any::filter_of<lanes, gnomon::fast<binomial<2>>, Texel>;
