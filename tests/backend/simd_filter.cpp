@@ -122,10 +122,12 @@ TEST_CASE(
     const auto bytes = test::noise<rg8>(roll, {300, 9}, 3);
     const auto words = test::noise<gnomon::rg16>(roll, {300, 9}, 3);
     const auto papers = test::noise<test::paper16>(roll, {70, 9}, 3); // whose clear depth beside the map is all of the bits
+    const auto floats = test::noise<test::paper32f>(roll, {70, 9}, 3);
     for_each_isa([&]<typename Isa>() {
         const image_view<const rg8> of_bytes = bytes.view();
         const image_view<const gnomon::rg16> of_words = words.view();
         const image_view<const test::paper16> of_papers = papers.view();
+        const image_view<const test::paper32f> of_floats = floats.view();
         CHECK(differing<Isa, tent<1>>(of_bytes, whole(bytes.size())) == 0); // 128 is no signed byte
         CHECK(differing<Isa, steep>(of_bytes, whole(bytes.size())) == 0);
         CHECK(differing<Isa, gnomon::fast<gaussian<32>>>(of_bytes, whole(bytes.size())) == 0);
@@ -133,6 +135,7 @@ TEST_CASE(
         CHECK(differing<Isa, gnomon::fast<binomial<17>>>(of_words, whole(words.size())) == 0);
         CHECK(differing<Isa, box<109>>(of_words, whole(words.size())) == 0);
         CHECK(differing<Isa, gnomon::fast<binomial<4>>>(of_papers, whole(papers.size())) == 0);
+        CHECK(differing<Isa, gnomon::fast<binomial<1>>>(of_floats, whole(floats.size())) == 0);
     });
 }
 
@@ -361,6 +364,12 @@ TEST_CASE("lanes count in what is quickest and still exact, words or doubles, an
     CHECK(goes_by.operator()<doubles, gnomon::rg32f, gaussian<2>>());
     CHECK(goes_by.operator()<floats, gnomon::rg32f, fast<gaussian<2>>>());
     CHECK(goes_by.operator()<floats, gnomon::rgb16f, fast<box<1>>>());
+}
+
+TEST_CASE("lanes filter by radii up to 256, and ratios as far as their sums are exact in double") {
+    using gnomon::on_any::filtered_in_lanes;
+    CHECK((filtered_in_lanes<box<256>, rg8> && !filtered_in_lanes<box<257>, rg8>));
+    CHECK((filtered_in_lanes<tent<37>, gnomon::tm16> && !filtered_in_lanes<tent<44>, gnomon::tm16>)); // 65535^2 38^4, 45^4
 }
 
 TEST_CASE("boxes of whole codes go by running sums, as far as these fit 32 bits and a division by them is a product") {
