@@ -46,7 +46,9 @@ inline std::vector<std::pair<std::string, std::string>> golden_texts() {
     filter.operator()<rg16, gaussian<2>>("rg16_gaussian_2");
     filter.operator()<rg16, box<130>>("rg16_box_130");
     filter.operator()<rg16, fast<gaussian<2>>>("rg16_fast_gaussian_2");
+    filter.operator()<rg8, gaussian<20>>("rg8_gaussian_20");
     filter.operator()<rg16f, tent<2>>("rg16f_tent_2");
+    filter.operator()<rg32f, fast<gaussian<20>>>("rg32f_fast_gaussian_20");
     filter.operator()<rgba32f, gaussian<2>>("rgba32f_gaussian_2");
     filter.operator()<tm8, tent<1>>("tm8_tent_1");
     filter.operator()<texel<unorm8, depth_ratio, effects{.far_bound = true, .translucency = true}>, gaussian<2>>(
