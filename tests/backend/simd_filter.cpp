@@ -366,6 +366,14 @@ TEST_CASE("lanes count in what is quickest and still exact, words or doubles, an
     CHECK(goes_by.operator()<floats, gnomon::rgb16f, fast<box<1>>>());
 }
 
+TEST_CASE("what lanes sum of a row has whole cache lines, and its margin before it") {
+    using pass = gnomon::on_any::filter_of<emulated<16>, gaussian<3>, gnomon::rgb32f>;
+    using room = gnomon::on_any::filter_room<pass, gnomon::rgb32f>;
+    static_assert(std::same_as<pass::element, double>); // eight of them a line
+    CHECK((room::whole_cache_lines(0) == 0 && room::whole_cache_lines(1) == 8 && room::whole_cache_lines(8) == 8));
+    CHECK((room::before == 16 && room::plane_of(30) % 8 == 0)); // nine are the margin
+}
+
 TEST_CASE("lanes filter by radii up to 256, and ratios as far as their sums are exact in double") {
     using gnomon::on_any::filtered_in_lanes;
     CHECK((filtered_in_lanes<box<256>, rg8> && !filtered_in_lanes<box<257>, rg8>));
