@@ -374,6 +374,24 @@ TEST_CASE("what lanes sum of a row has whole cache lines, and its margin before 
     CHECK((room::before == 16 && room::plane_of(30) % 8 == 0)); // nine are the margin
 }
 
+TEST_CASE_TEMPLATE("what lies above and below a tall map is clear to lanes, of whichever end a region is", Texel, rg8,
+                   gnomon::rg32f) {
+    dice roll(409);
+    const auto map = test::noise<Texel>(roll, {40, 90}, 3);
+    for_each_isa([&]<typename Isa>() {
+        for (const texel_rect region : {texel_rect{0, 0, 40, 20}, {3, 2, 30, 9}, {0, 70, 40, 90}, {5, 80, 40, 89}})
+            CHECK(differing<Isa, gnomon::fast<gaussian<8>>>(image_view<const Texel>(map.view()), region) == 0);
+    });
+}
+
+TEST_CASE("without room for a texel lanes do nothing, and say so") {
+    const image<rg8> from({40, 5}, rg8::caster(0.5f));
+    image<rg8> to({40, 5}, rg8::clear());
+    CHECK_FALSE(gnomon::on_any::filter_rows<emulated<16>, binomial<1>>(image_view<const rg8>(from.view()), to.view(),
+                                                                       whole(to.size()), {}));
+    CHECK(to(20, 2) == rg8::clear());
+}
+
 TEST_CASE("lanes filter by radii up to 256, and ratios as far as their sums are exact in double") {
     using gnomon::on_any::filtered_in_lanes;
     CHECK((filtered_in_lanes<box<256>, rg8> && !filtered_in_lanes<box<257>, rg8>));
