@@ -31,6 +31,16 @@ using dice = test::world_dice;
 
 static_assert(sizeof(on_any::triangle_setup<emulated<256>>) > 0); // a bit for each of 32 lanes: there is room for no more
 
+template <typename Texel>
+concept casts_translucent = requires(image_view<Texel> texels, triangle_mesh mesh, light_frame light) {
+    cast_triangles(simd<>{}, texels, mesh, light, 0.5f);
+};
+template <typename Texel>
+concept takes_bounds =
+    requires(image_view<Texel> texels, triangle_mesh mesh, light_frame light) { bound_triangles(simd<>{}, texels, mesh, light); };
+static_assert(casts_translucent<rga16> && !casts_translucent<rg16>);
+static_assert(takes_bounds<rgb16> && !takes_bounds<rg16>);
+
 struct mesh_data {
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
