@@ -139,7 +139,9 @@ TEST_CASE(
         CHECK(differing<Isa, box<109>>(of_words, whole(words.size())) == 0);
         CHECK(differing<Isa, gnomon::fast<binomial<4>>>(of_papers, whole(papers.size())) == 0);
         CHECK(differing<Isa, gnomon::fast<binomial<1>>>(of_floats, whole(floats.size())) == 0);
+        CHECK(differing<Isa, gnomon::fast<box<1>>>(of_floats, whole(floats.size())) == 0); // 9 is no power of two
         CHECK(differing<Isa, box<2>>(of_threes, whole(threes.size())) == 0);
+        CHECK(differing<Isa, binomial<2>>(of_threes, {295, 0, 300, 9}) == 0); // narrower than a register, and at the end
     });
 }
 

@@ -55,6 +55,7 @@ inline std::vector<std::pair<std::string, std::string>> golden_texts() {
         "tmba8_gaussian_2");
     filter.operator()<rgba8, narrow<box<1>>>("rgba8_narrow_box_1");
     filter.operator()<rg16f, narrow<tent<2>>>("rg16f_narrow_tent_2");
+    filter.operator()<rg32f, narrow<tent<2>>>("rg32f_narrow_tent_2");
     return texts;
 }
 
