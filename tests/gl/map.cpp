@@ -61,6 +61,9 @@ constexpr bool has_bounds = requires(gl::passes<Texel, gnomon::binomial<3>>& pas
 template <typename Texel>
 constexpr bool begins_bounds = requires(const gl::context& c, const gl::map_targets& to) { gl::begin_bounds<Texel>(c, to); };
 static_assert(has_bounds<gnomon::rgb8> && !has_bounds<gnomon::rg8> && !begins_bounds<gnomon::rg8>);
+template <typename Texel>
+constexpr bool draws_bounds = requires(map_of<Texel>& map, void (*draw)(const gl::map_targets&)) { map.bound(draw); };
+static_assert(draws_bounds<gnomon::rgb8> && !draws_bounds<gnomon::rg8>);
 static_assert(!std::is_copy_constructible_v<map_of<gnomon::rg8>> && std::is_nothrow_move_constructible_v<map_of<gnomon::rg8>>);
 } // namespace
 
