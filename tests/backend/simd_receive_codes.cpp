@@ -77,6 +77,17 @@ void set(std::uint16_t& z, float value) { z = gnomon::unorm16::encode(static_cas
 template <typename T> strided_span<T> spread_over(T* memory, int count, int spread) {
     return {memory, count, static_cast<std::ptrdiff_t>(sizeof(T)) * spread};
 }
+
+/// Lanes of every set store the oracle's bits.
+template <typename Intensity, typename Texel>
+void check_lanes(const std::vector<Texel>& texels, const std::vector<std::uint16_t>& z, const rule& r) {
+    std::vector<Intensity> expected(z.size()), made(z.size());
+    gnomon::receive(texels, z, expected, r);
+    for_each_isa([&]<typename Isa>() {
+        gnomon::receive(simd<Isa>{}, texels, z, made, r);
+        CHECK(std::memcmp(expected.data(), made.data(), made.size() * sizeof(Intensity)) == 0);
+    });
+}
 } // namespace
 
 TYPE_TO_STRING_AS("bytes, depths of 16 bits", byte_row);
@@ -145,12 +156,7 @@ TEST_CASE("lanes decide every pair of bytes as the oracle does, at the codes whe
                     z.push_back(static_cast<std::uint16_t>(code < 0 ? 0 : (code > 65535 ? 65535 : code)));
                 }
             }
-        std::vector<std::uint8_t> expected(z.size()), made(z.size());
-        gnomon::receive(texels, z, expected, r);
-        for_each_isa([&]<typename Isa>() {
-            gnomon::receive(simd<Isa>{}, texels, z, made, r);
-            CHECK(expected == made);
-        });
+        check_lanes<std::uint8_t>(texels, z, r);
     }
 }
 
@@ -176,12 +182,7 @@ TEST_CASE_TEMPLATE(
                 z.push_back(static_cast<std::uint16_t>(code < 0 ? 0 : (code > 65535 ? 65535 : code)));
             }
         }
-        std::vector<typename Row::intensity> expected(z.size()), made(z.size());
-        gnomon::receive(texels, z, expected, r);
-        for_each_isa([&]<typename Isa>() {
-            gnomon::receive(simd<Isa>{}, texels, z, made, r);
-            CHECK(std::memcmp(expected.data(), made.data(), made.size() * sizeof made[0]) == 0);
-        });
+        check_lanes<typename Row::intensity>(texels, z, r);
     }
 }
 
@@ -196,14 +197,7 @@ TEST_CASE_TEMPLATE("a mask that a bias takes away is nothing to lanes too, whate
                 texels.push_back({{Texel::channel_type::encode(e), Texel::channel_type::encode(std::ldexp(1.0, exponent))}});
                 z.push_back(static_cast<std::uint16_t>(code));
             }
-    for (const rule& r : rules()) {
-        std::vector<float> expected(z.size()), made(z.size());
-        gnomon::receive(texels, z, expected, r);
-        for_each_isa([&]<typename Isa>() {
-            gnomon::receive(simd<Isa>{}, texels, z, made, r);
-            CHECK(expected == made);
-        });
-    }
+    for (const rule& r : rules()) check_lanes<float>(texels, z, r);
 }
 
 TEST_CASE("every mask is stored as the oracle stores it, as 8 bits, as 16 and as a float") {
@@ -214,19 +208,11 @@ TEST_CASE("every mask is stored as the oracle stores it, as 8 bits, as 16 and as
         bytes[static_cast<std::size_t>(m)] = {{static_cast<std::uint8_t>(m), static_cast<std::uint8_t>(m)}};
     }
     const std::vector<std::uint16_t> last(65536, 65535);
-    const auto agree = [&]<typename Isa, typename Texel, typename Intensity>(const std::vector<Texel>& texels, Intensity) {
-        std::vector<Intensity> expected(65536), made(65536);
-        gnomon::receive(texels, last, expected);
-        gnomon::receive(simd<Isa>{}, texels, last, made);
-        CHECK(std::memcmp(expected.data(), made.data(), made.size() * sizeof(Intensity)) == 0);
-    };
-    for_each_isa([&]<typename Isa>() {
-        agree.template operator()<Isa>(words, std::uint8_t{});
-        agree.template operator()<Isa>(words, std::uint16_t{});
-        agree.template operator()<Isa>(words, 0.0f);
-        agree.template operator()<Isa>(bytes, std::uint16_t{});
-        agree.template operator()<Isa>(bytes, 0.0f);
-    });
+    check_lanes<std::uint8_t>(words, last, {});
+    check_lanes<std::uint16_t>(words, last, {});
+    check_lanes<float>(words, last, {});
+    check_lanes<std::uint16_t>(bytes, last, {});
+    check_lanes<float>(bytes, last, {});
 }
 
 TEST_CASE("of rows the shortest span counts in lanes too") {
