@@ -56,6 +56,7 @@ inline std::vector<std::pair<std::string, std::string>> golden_texts() {
     filter.operator()<rgba8, narrow<box<1>>>("rgba8_narrow_box_1");
     filter.operator()<rg16f, narrow<tent<2>>>("rg16f_narrow_tent_2");
     filter.operator()<rg32f, narrow<tent<2>>>("rg32f_narrow_tent_2");
+    filter.operator()<rg32f, fast<box<1>>>("rg32f_fast_box_1");
     return texts;
 }
 
