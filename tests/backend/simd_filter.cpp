@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <vector>
 
 namespace {
@@ -186,6 +187,37 @@ TEST_CASE("a strip is as wide as a row if there is room, fits if there is not, a
     };
     check.operator()<binomial<4>, rg8>();
     check.operator()<gaussian<4>, gnomon::rgb32f>();
+}
+
+namespace {
+/// How often lanes wrote beside a scratch, of each size there is, that begins where cache lines do or an element later.
+template <typename Isa, typename Texel> int written_beside_scratches() {
+    using element = gnomon::line_element<Texel>;
+    using kernel = gnomon::fast<binomial<1>>;
+    const image<Texel> map({24, 2}, Texel::clear());
+    image<Texel> made(map.size());
+    const std::size_t most = gnomon::filter_scratch_size<Texel, kernel>(map.size().width), around = 64 / sizeof(element);
+    std::vector<element> memory(most + 3 * around);
+    const std::size_t line = (64 - reinterpret_cast<std::uintptr_t>(memory.data()) % 64) % 64 / sizeof(element) + around;
+    int wrong = 0;
+    for (std::size_t first = line; first <= line + 1; ++first)
+        for (std::size_t count = 0; first + count + 2 < memory.size() && count <= most; ++count) {
+            const std::array guards{first - 1, first + count, first + count + 1};
+            for (const std::size_t i : guards) memory[i] = element{42};
+            gnomon::detail::filter_on<Isa, kernel>(image_view<const Texel>(map.view()), made.view(), whole(map.size()),
+                                                   std::span(memory).subspan(first, count));
+            for (const std::size_t i : guards) wrong += memory[i] < element{42} || memory[i] > element{42};
+        }
+    return wrong;
+}
+} // namespace
+
+TEST_CASE("lanes write nothing beside a scratch, wherever it begins and however little it is") {
+    for_each_isa([]<typename Isa>() {
+        CHECK(written_beside_scratches<Isa, rg8>() == 0);
+        CHECK(written_beside_scratches<Isa, gnomon::rgb8>() == 0);
+        CHECK(written_beside_scratches<Isa, gnomon::rgba32f>() == 0);
+    });
 }
 
 TEST_CASE("what is too large for the caches goes past them, whole registers where they are aligned, and is the same") {
