@@ -310,6 +310,19 @@ TEST_CASE_TEMPLATE("a ratio of two sums is the oracle's in lanes too, where the 
     });
 }
 
+TEST_CASE_TEMPLATE("lanes say that they filtered, and leave nothing to be filtered again", Texel, rg8, gnomon::rg32f, gnomon::tm8) {
+    const image<Texel> map({70, 9}, Texel::clear());
+    image<Texel> made(map.size());
+    for_each_isa([&]<typename Isa>() {
+        const auto filtered = [&]<gnomon::kernel Kernel>() {
+            filter_scratch<Texel, Kernel> scratch(70);
+            return gnomon::detail::filter_on<Isa, Kernel>(image_view<const Texel>(map.view()), made.view(), {3, 1, 69, 8},
+                                                          scratch.line());
+        };
+        CHECK((filtered.template operator()<box<3>>() && filtered.template operator()<binomial<4>>()));
+    });
+}
+
 TEST_CASE_TEMPLATE("what lanes do not know is left to the oracle: ratios of wide sums, a channel of a user's, radii beyond 256",
                    Texel, gnomon::tm16, gnomon::texel<own_channel>, rg8) {
     dice roll(403);

@@ -234,6 +234,16 @@ TEST_CASE("lanes blend on maps of 2 to 2^21 texels a side whose offsets fit 32 b
     }
 }
 
+TEST_CASE("lanes say that they decided, and leave nothing to be decided again") {
+    const image<rg8> map({4, 4}, rg8::caster(0.5f));
+    const std::array where{1.5f, 2.5f, 0.25f};
+    const strided_span<const float> at(where);
+    for_each_isa([&]<typename Isa>() {
+        std::array<float, 3> made{};
+        CHECK(gnomon::detail::receive_points_on<Isa, rg8, float, float>(map.view(), at, at, at, made, {}));
+    });
+}
+
 TEST_CASE("receivers anywhere: the shortest span counts in lanes too") {
     dice roll(435);
     const image<rg8> map = test::noise<rg8>(roll, {40, 30}, 2);
