@@ -137,9 +137,10 @@ template <typename T> [[nodiscard]] bool share_texels(image_view<const T> a, ima
     const bytes one(a), other(b);
     if (one.last <= other.first || other.last <= one.first) return false;
     if (one.stride != other.stride || one.stride < one.width) return true;
-    const auto step = static_cast<std::ptrdiff_t>(one.stride), ahead = static_cast<std::ptrdiff_t>(other.first - one.first);
-    const auto column = static_cast<std::uintptr_t>((ahead % step + step) % step); // where in its rows the other begins
-    return column < one.width || column + other.width > one.stride;
+    const bool in_order = one.first <= other.first;
+    const bytes &before = in_order ? one : other, &behind = in_order ? other : one;
+    const std::uintptr_t column = (behind.first - before.first) % before.stride; // where in the rows of the one before
+    return column < before.width || column + behind.width > before.stride;
 }
 
 /// An image that owns its memory. Every row begins on a 64-byte boundary, and an odd number of cache lines behind the one above: of rows
