@@ -204,8 +204,10 @@ template <typename Isa, typename Texel> int written_beside_scratches() {
         for (std::size_t count = 0; first + count + 2 < memory.size() && count <= most; ++count) {
             const std::array guards{first - 1, first + count, first + count + 1};
             for (const std::size_t i : guards) memory[i] = element{42};
-            gnomon::detail::filter_on<Isa, kernel>(image_view<const Texel>(map.view()), made.view(), whole(map.size()),
-                                                   std::span(memory).subspan(first, count));
+            gnomon::detail::in_lanes<Isa>([&]<typename Lanes>() {
+                return gnomon::detail::filter_on<Lanes, kernel>(image_view<const Texel>(map.view()), made.view(), whole(map.size()),
+                                                                std::span(memory).subspan(first, count));
+            });
             for (const std::size_t i : guards) wrong += memory[i] < element{42} || memory[i] > element{42};
         }
     return wrong;
@@ -316,8 +318,10 @@ TEST_CASE_TEMPLATE("lanes say that they filtered, and leave nothing to be filter
     for_each_isa([&]<typename Isa>() {
         const auto filtered = [&]<gnomon::kernel Kernel>() {
             filter_scratch<Texel, Kernel> scratch(70);
-            return gnomon::detail::filter_on<Isa, Kernel>(image_view<const Texel>(map.view()), made.view(), {3, 1, 69, 8},
-                                                          scratch.line());
+            return gnomon::detail::in_lanes<Isa>([&]<typename Lanes>() {
+                return gnomon::detail::filter_on<Lanes, Kernel>(image_view<const Texel>(map.view()), made.view(), {3, 1, 69, 8},
+                                                                scratch.line());
+            });
         };
         CHECK((filtered.template operator()<box<3>>() && filtered.template operator()<binomial<4>>()));
     });

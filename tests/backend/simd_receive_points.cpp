@@ -240,7 +240,9 @@ TEST_CASE("lanes say that they decided, and leave nothing to be decided again") 
     const strided_span<const float> at(where);
     for_each_isa([&]<typename Isa>() {
         std::array<float, 3> made{};
-        CHECK(gnomon::detail::receive_points_on<Isa, rg8, float, float>(map.view(), at, at, at, made, {}));
+        CHECK(gnomon::detail::in_lanes<Isa>([&]<typename Lanes>() {
+            return gnomon::detail::receive_points_on<Lanes, rg8, float, float>(map.view(), at, at, at, made, {});
+        }));
     });
 }
 
