@@ -312,6 +312,19 @@ TEST_CASE_TEMPLATE("a ratio of two sums is the oracle's in lanes too, where the 
     });
 }
 
+TEST_CASE_TEMPLATE("what a line holds behind its end stays out of the row of nothing, though its texel is wider than a register",
+                   Texel, test::paper_rgba16, test::paper_rgba32f) {
+    dice roll(438);
+    const image<Texel> map = test::noise<Texel>(roll, {64, 9}, 2);
+    for_each_isa([&]<typename Isa>() { CHECK(differing<Isa, binomial<2>, Texel>(map.view(), {10, 0, 42, 9}) == 0); });
+}
+
+TEST_CASE("lanes wider than a cache line read nothing before their scratch") {
+    dice roll(439);
+    const image<gnomon::rg32f> map = test::noise<gnomon::rg32f>(roll, {90, 9}, 2);
+    CHECK(differing<emulated<128>, gaussian<1>, gnomon::rg32f>(map.view(), whole(map.size())) == 0);
+}
+
 TEST_CASE_TEMPLATE("lanes say that they filtered, and leave nothing to be filtered again", Texel, rg8, gnomon::rg32f, gnomon::tm8) {
     const image<Texel> map({70, 9}, Texel::clear());
     image<Texel> made(map.size());

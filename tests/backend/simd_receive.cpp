@@ -29,7 +29,8 @@ using test::for_each_isa;
 } // namespace
 
 TEST_CASE_TEMPLATE("lanes decide as the oracle does: every width to 67, any stride, any rule, and depths that are none", Texel, rg8,
-                   gnomon::rg16, gnomon::rga8, gnomon::rga16, gnomon::rg32f, test::paper8, gnomon::rgb8) {
+                   gnomon::rg16, gnomon::rga8, gnomon::rga16, gnomon::rg32f, gnomon::rga16f, gnomon::rga32f, test::paper8,
+                   gnomon::rgb8) {
     dice roll(404);
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const float odd_depths[] = {0.0f,      -0.0f,     1.0f,     0.5f,      std::nextafter(0.5f, 0.0f),
@@ -150,7 +151,8 @@ TEST_CASE("simd<> goes by the lanes of the processor's level, and every level be
 TEST_CASE("where the build has lanes, simd<> goes by them without asking the processor") {
     const bool neon = GNOMON_NEON != 0;
     CHECK(gnomon::best_lanes() == (neon ? gnomon::cpu_level::neon : gnomon::cpu_level::wasm128));
-    CHECK(gnomon::detail::with_lanes(gnomon::best_lanes(), []<typename Isa>() { return !std::same_as<Isa, gnomon::emulated<16>>; }));
+    CHECK(
+        gnomon::detail::with_lanes(gnomon::best_lanes(), []<typename Isa>() { return !std::same_as<Isa, gnomon::emulated<16>>; }));
 }
 #endif
 

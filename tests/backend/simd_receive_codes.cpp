@@ -78,6 +78,19 @@ template <typename T> strided_span<T> spread_over(T* memory, int count, int spre
     return {memory, count, static_cast<std::ptrdiff_t>(sizeof(T)) * spread};
 }
 
+/// The code after which the oracle's shadow on a texel begins.
+template <typename Intensity, typename Texel> int last_lit_code(const Texel& t, const rule& r) {
+    int lit = 0, dark = 65536;
+    while (dark - lit > 1) {
+        const int middle = (lit + dark) / 2;
+        const bool is_dark =
+            gnomon::shadow_as<Intensity>(read(t), gnomon::depth16{static_cast<std::uint16_t>(middle)}, r) > Intensity{};
+        (is_dark ? dark : lit) = middle;
+    }
+    return lit;
+}
+std::uint16_t nearest_code(int code) { return static_cast<std::uint16_t>(code < 0 ? 0 : (code > 65535 ? 65535 : code)); }
+
 /// Lanes of every set store the oracle's bits.
 template <typename Intensity, typename Texel>
 void check_lanes(const std::vector<Texel>& texels, const std::vector<std::uint16_t>& z, const rule& r) {
@@ -144,18 +157,28 @@ TEST_CASE("lanes decide every pair of bytes as the oracle does, at the codes whe
         for (int mask = 0; mask < 256; ++mask)
             for (int depth = 0; depth < 256; ++depth) {
                 const rg8 t{{static_cast<std::uint8_t>(depth), static_cast<std::uint8_t>(mask)}};
-                int lit = 0, dark = 65536;
-                while (mask > 0 && dark - lit > 1) {
-                    const int middle = (lit + dark) / 2;
-                    const bool is_dark =
-                        gnomon::shadow_as<std::uint8_t>(read(t), gnomon::depth16{static_cast<std::uint16_t>(middle)}, r) > 0;
-                    (is_dark ? dark : lit) = middle;
-                }
+                const int lit = mask > 0 ? last_lit_code<std::uint8_t>(t, r) : 0;
                 for (const int code : {0, lit - 1, lit, lit + 1, lit + 2, 65535}) {
                     texels.push_back(t);
-                    z.push_back(static_cast<std::uint16_t>(code < 0 ? 0 : (code > 65535 ? 65535 : code)));
+                    z.push_back(nearest_code(code));
                 }
             }
+        check_lanes<std::uint8_t>(texels, z, r);
+    }
+}
+
+TEST_CASE("a pair of bytes is decided as the oracle does where its shadow begins, alone among texels of nothing, in any lane") {
+    constexpr int apart = 64; // no two in the registers that are decided together
+    dice roll(437);
+    for (const rule& r : rules()) {
+        std::vector<rg8> texels(5000 * apart, rg8::clear());
+        std::vector<std::uint16_t> z(texels.size(), 30000);
+        for (std::size_t first = 0; first < texels.size(); first += apart) {
+            const rg8 t{{static_cast<std::uint8_t>(roll(0, 255)), static_cast<std::uint8_t>(roll(1, 255))}};
+            const std::size_t at = first + static_cast<std::size_t>(roll(0, apart - 1));
+            texels[at] = t;
+            z[at] = nearest_code(last_lit_code<std::uint8_t>(t, r) + roll(-1, 2));
+        }
         check_lanes<std::uint8_t>(texels, z, r);
     }
 }
@@ -170,16 +193,10 @@ TEST_CASE_TEMPLATE(
         std::vector<std::uint16_t> z;
         for (int i = 0; i < 2000; ++i) {
             const Texel t = test::any_caster<Texel>(roll);
-            int lit = 0, dark = 65536;
-            while (dark - lit > 1) {
-                const int middle = (lit + dark) / 2;
-                const bool is_dark =
-                    gnomon::shadow_as<float>(read(t), gnomon::depth16{static_cast<std::uint16_t>(middle)}, r) > 0.0f;
-                (is_dark ? dark : lit) = middle;
-            }
+            const int lit = last_lit_code<float>(t, r);
             for (const int code : {lit - 1, lit, lit + 1, lit + 2}) {
                 texels.push_back(t);
-                z.push_back(static_cast<std::uint16_t>(code < 0 ? 0 : (code > 65535 ? 65535 : code)));
+                z.push_back(nearest_code(code));
             }
         }
         check_lanes<typename Row::intensity>(texels, z, r);

@@ -320,6 +320,33 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("lanes divide by W under every lamp that looks along an axis, and by a W that is the same everywhere") {
+    dice roll{std::mt19937_64(44)};
+    mesh_data m;
+    for (int i = 0; i < 200; ++i) m.add(roll.vector(3.0), roll.vector(3.0), roll.vector(3.0));
+    const auto check = [&m](const light_frame& light, const glm::dmat4& model) {
+        const triangle_mesh mesh{m.positions, m.indices, model};
+        const record drawn = draw(scalar{}, mesh, light, everywhere, faces::both);
+        CHECK(drawn.texels.size() > 20);
+        for_each_isa([&]<typename Isa>() { CHECK(draw(simd<Isa>{}, mesh, light, everywhere, faces::both) == drawn); });
+    };
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double sign : {-1.0, 1.0}) {
+            glm::dvec3 along(0.0);
+            along[axis] = sign;
+            for (const double away : {0.0, 1.0, 4.0})
+                check(spot_light{.position = -away * along, .direction = along, .up = {along.y, along.z, along.x}}.frame({64, 64}),
+                      glm::dmat4(1.0));
+        }
+    for (const double w : {0.5, 2.0}) {
+        glm::dmat4 model(1.0);
+        model[3][3] = w;
+        check(plain_frame({64, 64}), glm::scale(model, glm::dvec3(3000.0, 3000.0, 0.3)));
+        model[3][2] = 1.0; // flattened onto the plane where z is 1, before it is divided
+        check(plain_frame({64, 64}), glm::scale(model, glm::dvec3(3000.0, 3000.0, 0.0)));
+    }
+}
+
 TEST_CASE("lanes cover the centres that edges run through as the scalar rasteriser does") {
     dice roll{std::mt19937_64(35)};
     const auto number = [&roll](int low, int high) { return static_cast<double>(static_cast<int>(roll(low, high + 0.999))); };

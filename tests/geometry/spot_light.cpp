@@ -90,5 +90,7 @@ TEST_CASE("a lamp out of its ranges has no frame") {
     CHECK_FALSE(valid({.direction = {0, 0, 0}}));
     CHECK(valid({}, {9, 64}, 4));
     for (const int margin : {5, 6, 40}) CHECK_FALSE(valid({}, {10, 64}, margin)); // the margins leave nothing
+    for (const double x : {0.1, 0.3, 0.7, 1.0})                                   // nor does rounding leave a volume
+        CHECK_FALSE(valid({.position = {x, 1.0, 2.0}, .direction = {x, -0.5, 0.2}, .outer_angle = 0.4 + x}, {8, 14}, 4));
     CHECK(spot_light{}.frame({10, 10}, -3).matrix() == spot_light{}.frame({10, 10}).matrix());
 }

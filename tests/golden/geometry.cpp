@@ -11,6 +11,7 @@
 #include "../support/images.hpp"
 
 #include <gnomon/geometry/rasterize.hpp>
+#include <gnomon/geometry/rasterize_lanes.hpp> // compiles on every processor
 
 #include <array>
 #include <vector>

@@ -292,6 +292,7 @@ TEST_CASE("a cleared grid is a new one") {
 
 TEST_CASE("a grid without a map has no tiles and takes every call") {
     tile_grid grid;
+    CHECK((grid.columns() == 0 && grid.rows() == 0));
     CHECK(differences(grid, oracle({0, 0}, 1)) == 0);
     CHECK(grid.mark({0, 0, 9, 9}, 3) == tile_rect{});
     grid.dilate(2);

@@ -98,6 +98,7 @@ TEST_CASE("an image with a side that is zero or negative has no texels there") {
     CHECK(size_of({4, 0}) == extent{4, 0});
     CHECK(size_of({-3, 4}) == extent{0, 4});
     CHECK(size_of({4, -2147483647 - 1}) == extent{4, 0});
+    CHECK(image<int>({0, 4}).view().stride() == 0);
     CHECK(image<int>().size() == extent{});
     CHECK(image<int>().view().part({-5, -5, 5, 5}).size() == extent{});
     image<int>({-3, 4}).view().fill({-9, -9, 9, 9}, 1);

@@ -72,7 +72,7 @@ template <typename Pass, texel_format Texel> struct filter_room {
         constexpr int in_one = 64 / static_cast<int>(sizeof(element));
         return (elements + in_one - 1) / in_one * in_one;
     }
-    static constexpr int before = whole_cache_lines(Pass::place(Pass::margin));
+    static constexpr int before = whole_cache_lines(Pass::place(greater(Pass::margin, Pass::step)));
     /// Channels beside those of a strip: both margins, a register on either side, and a texel that a pair of taps may read without a
     /// weight.
     static constexpr int around = 2 * (Pass::margin + Pass::step) + Texel::channels;

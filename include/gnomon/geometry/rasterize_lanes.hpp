@@ -60,14 +60,14 @@ template <typename Texel> struct bounds {
     template <typename Lanes> using row = typename raster_on<Lanes>::template bound<Texel>;
 };
 
-/// f.template operator()<Lanes>() for the lanes that Isa names; for SSE2 if the processor has no such lanes.
+/// f.template operator()<Lanes>() for the lanes that Isa names, or those of every such processor where this one lacks them.
 template <typename Isa, typename F> auto for_lanes(F&& f) noexcept {
     if constexpr (std::same_as<Isa, best_isa>)
         return with_lanes(best_lanes(), f);
     else if constexpr (level_needed<Isa> == cpu_level::portable)
         return f.template operator()<Isa>();
     else
-        return lanes_are_there<Isa>() ? f.template operator()<Isa>() : f.template operator()<sse2>();
+        return lanes_are_there<Isa>() ? f.template operator()<Isa>() : with_lanes(cpu_level::portable, f);
 }
 
 /// Are these texels encoded in lanes?
