@@ -65,7 +65,7 @@ template <typename Isa> void stream(void* to, const void* from, std::size_t byte
 }
 
 /// The caller's scratch in use: lines of sums for four rows, and a row of nothing for what lies off the map. What a line holds of the
-/// first column that is summed begins on a cache line.
+/// first column that is summed begins on a cache line, and a register of what is before it can be read.
 template <typename Pass, texel_format Texel> struct filter_room {
     using element = typename Pass::element;
     [[nodiscard]] static constexpr int whole_cache_lines(int elements) noexcept {
