@@ -65,6 +65,14 @@ template <typename Isa, gnomon::kernel Kernel, typename Texel> int differing(ima
     return differing<Isa, Kernel>(from, region, from.size().width);
 }
 
+/// Do the lanes of a name say that they filtered?
+template <typename Isa, gnomon::kernel Kernel, typename Texel>
+bool filtered(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
+              std::span<gnomon::line_element<Texel>> scratch) {
+    return gnomon::detail::in_lanes<Isa>(
+        [&]<typename Lanes>() { return gnomon::detail::filter_on<Lanes, Kernel>(from, to, region, scratch); });
+}
+
 template <typename Isa, typename Kernel, typename Texel> using doubles = gnomon::on_any::wide_filter<Isa, Kernel, Texel, double>;
 template <typename Isa, typename Kernel, typename Texel> using floats = gnomon::on_any::wide_filter<Isa, Kernel, Texel, float>;
 
@@ -204,10 +212,7 @@ template <typename Isa, typename Texel> int written_beside_scratches() {
         for (std::size_t count = 0; first + count + 2 < memory.size() && count <= most; ++count) {
             const std::array guards{first - 1, first + count, first + count + 1};
             for (const std::size_t i : guards) memory[i] = element{42};
-            gnomon::detail::in_lanes<Isa>([&]<typename Lanes>() {
-                return gnomon::detail::filter_on<Lanes, kernel>(image_view<const Texel>(map.view()), made.view(), whole(map.size()),
-                                                                std::span(memory).subspan(first, count));
-            });
+            filtered<Isa, kernel, Texel>(map.view(), made.view(), whole(map.size()), std::span(memory).subspan(first, count));
             for (const std::size_t i : guards) wrong += memory[i] < element{42} || memory[i] > element{42};
         }
     return wrong;
@@ -329,14 +334,10 @@ TEST_CASE_TEMPLATE("lanes say that they filtered, and leave nothing to be filter
     const image<Texel> map({70, 9}, Texel::clear());
     image<Texel> made(map.size());
     for_each_isa([&]<typename Isa>() {
-        const auto filtered = [&]<gnomon::kernel Kernel>() {
-            filter_scratch<Texel, Kernel> scratch(70);
-            return gnomon::detail::in_lanes<Isa>([&]<typename Lanes>() {
-                return gnomon::detail::filter_on<Lanes, Kernel>(image_view<const Texel>(map.view()), made.view(), {3, 1, 69, 8},
-                                                                scratch.line());
-            });
-        };
-        CHECK((filtered.template operator()<box<3>>() && filtered.template operator()<binomial<4>>()));
+        filter_scratch<Texel, box<3>> of_box(70);
+        filter_scratch<Texel, binomial<4>> of_binomial(70);
+        CHECK((filtered<Isa, box<3>, Texel>(map.view(), made.view(), {3, 1, 69, 8}, of_box.line())));
+        CHECK((filtered<Isa, binomial<4>, Texel>(map.view(), made.view(), {3, 1, 69, 8}, of_binomial.line())));
     });
 }
 

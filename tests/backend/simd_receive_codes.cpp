@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -89,7 +90,7 @@ template <typename Intensity, typename Texel> int last_lit_code(const Texel& t, 
     }
     return lit;
 }
-std::uint16_t nearest_code(int code) { return static_cast<std::uint16_t>(code < 0 ? 0 : (code > 65535 ? 65535 : code)); }
+std::uint16_t nearest_code(int code) { return static_cast<std::uint16_t>(std::clamp(code, 0, 65535)); }
 
 /// Lanes of every set store the oracle's bits.
 template <typename Intensity, typename Texel>
