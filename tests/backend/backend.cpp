@@ -1,4 +1,5 @@
 // The concept with a model and near misses, the stages with a backend that counts, and the scalar one against the free functions.
+#include <gnomon/backend/executor.hpp>
 #include <gnomon/backend/scalar.hpp>
 #include <gnomon/soft_shadow_map.hpp>
 
@@ -80,6 +81,11 @@ struct only_rg8 : rows_only { // and that suffices
     void receive(image_view<const rg8>, strided_span<const float>, strided_span<const float>, strided_span<const float>,
                  strided_span<float>, const rule&) const noexcept;
 };
+struct receives_only { // which suffices to receive
+    void receive(strided_span<const rg8>, strided_span<const float>, strided_span<float>, const rule&) const noexcept;
+    void receive(image_view<const rg8>, strided_span<const float>, strided_span<const float>, strided_span<const float>,
+                 strided_span<float>, const rule&) const noexcept;
+};
 } // namespace near_miss
 
 namespace {
@@ -91,6 +97,16 @@ static_assert(!backend_for<near_miss::may_throw, rg8, box<1>> && !backend_for<ne
               !backend_for<near_miss::needs_state, rg8, box<1>>);
 static_assert(!backend_for<near_miss::only_rg8, gnomon::rg16, box<1>> && !backend_for<near_miss::only_rg8, rg8, box<2>> &&
               !backend_for<scalar, int, box<1>> && !backend_for<scalar, rg8, int> && !backend_for<int, rg8, box<1>>);
+static_assert(gnomon::receives<near_miss::only_rg8, rg8> && gnomon::receives<near_miss::receives_only, rg8> &&
+              !backend_for<near_miss::receives_only, rg8, box<1>> && !gnomon::receives<near_miss::receives_only, gnomon::rg16> &&
+              !gnomon::receives<near_miss::rows_only, rg8> && !gnomon::receives<near_miss::points_only, rg8>);
+template <typename B>
+concept is_taken_by_receive = requires(const B& run, image_view<const rg8> map, image_view<float> all, strided_span<float> some) {
+    gnomon::receive(run, map.row_span(0), some, some);
+    gnomon::receive(run, map, some, some, some, some);
+    gnomon::receive(run, map, all, all, rule{}, gnomon::sequential{});
+};
+static_assert(is_taken_by_receive<near_miss::receives_only> && !is_taken_by_receive<near_miss::filters_only>);
 } // namespace
 
 TEST_CASE_TEMPLATE("the scalar backend is the free functions", Texel, rg8, gnomon::rgba16, gnomon::rgb16f, gnomon::rga32f,
@@ -154,7 +170,7 @@ TEST_CASE("what lanes know is left to the lanes that are named") {
     std::vector<float> at(48, 1.5f), z(48, 0.75f), intensity(48);
     const gnomon::simd<test::counted_lanes> run;
     int& loads = test::counted_lanes::loads;
-    loads = 0;
+    test::counted_lanes::forget();
     run.filter_region(casters.view(), soft.view(), whole(soft.size()), scratch);
     CHECK(std::exchange(loads, 0) > 0);
     run.receive(image_view<const rg8>(soft.view()).row_span(0), strided_span<const float>(z), strided_span<float>(intensity),

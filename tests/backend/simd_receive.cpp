@@ -140,6 +140,58 @@ TEST_CASE_TEMPLATE("lanes decide floats and halves exactly: at the float where a
     }
 }
 
+TEST_CASE("simd<> has lanes on the processors that gnomon knows lanes of, and named lanes are there on all") {
+    static_assert(gnomon::detail::has_lanes<gnomon::best_isa> == (GNOMON_X86 != 0 || GNOMON_NEON != 0 || GNOMON_WASM != 0));
+    static_assert(gnomon::detail::has_lanes<gnomon::emulated<16>>);
+}
+
+TEST_CASE("of no receivers nothing is read: spans may be of nothing") {
+    const gnomon::strided_span<const rg8> texels;
+    const gnomon::strided_span<const float> in;
+    const gnomon::strided_span<float> out;
+    const gnomon::image<rg8> map({4, 4}, rg8::clear());
+    for_each_isa([&]<typename Isa>() {
+        simd<Isa>{}.receive(texels, in, out, {});
+        simd<Isa>{}.receive(map.view(), in, in, in, out, {});
+    });
+}
+
+namespace {
+/// Does a register of a lit and a shadowed receiver in turn, far from where either ends, leave the answer to lanes?
+template <typename Texel, typename Depth> bool told_by_lanes(const gnomon::rule& r) {
+    using by = gnomon::on_any::decision<gnomon::emulated<32>, Texel, Depth, float>;
+    std::array<Texel, by::step> texels;
+    std::array<Depth, by::step> depths;
+    std::array<float, by::step> made;
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        texels[i] = Texel::caster(0.5f);
+        const float z = i % 2 == 0 ? 0.25f : 0.75f;
+        depths[i] = std::same_as<Depth, float> ? static_cast<Depth>(z) : static_cast<Depth>(z * 65535.0f);
+    }
+    return by::one(by::of(r), texels[0].stored, depths.data(), made.data()) && made[0] < 0.5f && made[1] > 0.5f;
+}
+} // namespace
+
+TEST_CASE_TEMPLATE("lanes tell of what is ordinary, and leave it to no loop of texels", Texel, rg8, gnomon::rg16, gnomon::rg16f,
+                   gnomon::rg32f) {
+    for (const auto towards : {gnomon::bias_towards::light, gnomon::bias_towards::shadow, gnomon::bias_towards::none}) {
+        const gnomon::rule r{.caster = {.towards = towards}};
+        CHECK(told_by_lanes<Texel, float>(r));
+        if constexpr (Texel::channel_type::whole_codes) CHECK(told_by_lanes<Texel, std::uint16_t>(r));
+    }
+}
+
+TEST_CASE("each register of receivers is answered once, by lanes") {
+    const gnomon::image<rg8> map({64, 2}, rg8::caster(0.5f));
+    const std::vector<float> z(64, 0.75f), at(64, 0.75f);
+    std::vector<float> made(64);
+    test::counted_lanes::forget();
+    gnomon::receive(simd<test::counted_lanes>{}, map.view().row_span(0), z, made);
+    CHECK(test::counted_lanes::fractions == 64 / 4);
+    gnomon::receive(simd<test::counted_lanes>{}, map.view(), at, at, z, made);
+    CHECK(test::counted_lanes::fractions == 2 * 64 / 4);
+}
+
 #if GNOMON_X86
 TEST_CASE("simd<> goes by the lanes of the processor's level, and every level below is there to be chosen") {
     for (const gnomon::cpu_level level : {gnomon::cpu_level::sse2, gnomon::cpu_level::avx2, gnomon::cpu_level::avx512}) {

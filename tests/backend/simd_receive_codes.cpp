@@ -184,6 +184,22 @@ TEST_CASE("a pair of bytes is decided as the oracle does where its shadow begins
     }
 }
 
+TEST_CASE("of the default rule the quick way tells, but where a shadow begins") {
+    using by = gnomon::on_any::byte_decision<gnomon::emulated<16>, rg8>;
+    CHECK(by::of({}).one_rounding_towards_light);
+    std::array<rg8, by::step> texels;
+    std::array<std::uint16_t, by::step> depths;
+    std::array<std::uint8_t, by::step> made;
+    texels.fill(rg8::caster(0.5f));
+    for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = i % 2 == 0 ? 0x4000 : 0xC000;
+    const auto tells = [&] { return by::quick(by::of({}).nearer, texels[0].stored, depths.data(), made.data()); };
+    CHECK(tells());
+    CHECK((made[0] == 0 && made[1] == 255));
+    const int unsure = 256 * (255 - texels[5].stored[rg8::depth_index]) + 255; // is the high half of (256 M + 128) Z
+    depths[5] = static_cast<std::uint16_t>((65536 * std::int64_t{unsure} + 65407) / 65408 + gnomon::codes_towards_light<rg8>({}));
+    CHECK_FALSE(tells());
+}
+
 TEST_CASE_TEMPLATE(
     "lanes decide pairs of 16 bits, floats and halves as the oracle does, at the codes where a shadow begins and beside them", Row,
     word_row, bytes_to_words, float_row_of_codes, half_row_to_floats, translucent_words) {

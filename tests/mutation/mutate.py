@@ -27,7 +27,7 @@ from crowd import MANY, Crowd, level_of
 from limits import FOUND_BY_CLOCK, FOUND_BY_COMPILER, FOUND_BY_TEST, OPTIONS, SURVIVED, heard, limited, processor_time, run_test
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
-SANITIZERS = ("-DNDEBUG", "-fsanitize=address,undefined", "-fno-sanitize-recover=all") # asserts have had their say
+SANITIZERS = ("-DNDEBUG", "-fsanitize=address,undefined,float-cast-overflow", "-fno-sanitize-recover=all") # asserts have had their say
 FAR = 3.0 # seconds of processor time that a test of another folder may take to be asked: what only such a one sees deserves a test of its own
 # What no test case of this machine judges, and what does.
 ELSEWHERE = {"gnomon/simd/neon.hpp": "it is for another processor: ./tests/run --matrix tests-aarch64",

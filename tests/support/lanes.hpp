@@ -28,12 +28,23 @@ template <typename F> void for_each_isa(F&& f) {
 #endif
 }
 
-/// Lanes that tell how often they were asked to load something.
+/// Lanes that count what they are asked to do.
 struct counted_lanes : gnomon::emulated<16> {
-    static inline int loads = 0;
+    static inline int loads = 0, prefetches = 0, streams = 0, fences = 0, fractions = 0;
+    static void forget() noexcept { loads = prefetches = streams = fences = fractions = 0; }
     template <typename T> static auto load(const T* from) noexcept {
         ++loads;
         return emulated::load(from);
+    }
+    static void prefetch(const void*) noexcept { ++prefetches; }
+    static void stream(void* to, ints a) noexcept {
+        ++streams;
+        store(to, a);
+    }
+    static void fence() noexcept { ++fences; }
+    static floats fraction(floats a, float b) noexcept {
+        ++fractions;
+        return emulated::fraction(a, b);
     }
 };
 

@@ -7,17 +7,22 @@
 
 namespace gnomon::inline GNOMON_BUILD {
 
-/// Where the loops run. A backend filters a region, and receives a row or scattered points; it is a value, usually without state.
+/// Who decides on receivers: a row of them, one to one on texels, and scattered points.
+template <typename B, typename Texel>
+concept receives = texel_format<Texel> && requires(const B& run, image_view<const Texel> map, strided_span<const Texel> texels,
+                                                   strided_span<const float> in, strided_span<float> out, const rule& r) {
+    { run.receive(texels, in, out, r) } noexcept;
+    { run.receive(map, in, in, in, out, r) } noexcept;
+};
+
+/// Where the loops run. A backend receives, and filters a region; it is a value, usually without state.
 ///
 /// Whatever it does, unorm results equal those of `scalar`, bit for bit.
 template <typename B, typename Texel, typename Kernel>
-concept backend_for = texel_format<Texel> && kernel<Kernel> &&
+concept backend_for = receives<B, Texel> && kernel<Kernel> &&
                       requires(const B& run, image_view<const Texel> from, image_view<Texel> to, texel_rect region,
-                               filter_scratch<Texel, Kernel>& scratch, strided_span<const Texel> texels,
-                               strided_span<const float> in, strided_span<float> out, const rule& r) {
+                               filter_scratch<Texel, Kernel>& scratch) {
                           { run.filter_region(from, to, region, scratch) } noexcept;
-                          { run.receive(texels, in, out, r) } noexcept;
-                          { run.receive(from, in, in, in, out, r) } noexcept;
                       };
 
 /// Filters what the grid marks: filter(scalar{}, casters, soft, tiles, scratch).
@@ -36,9 +41,9 @@ void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> fr
 }
 
 /// Receivers one to one on texels: receive(simd<>{}, soft.row_span(y), depths, intensities). See receive/receive.hpp. Depths in codes
-/// and intensities in codes are for backends that take them, as gnomon's do; a concept of a backend asks for floats alone.
+/// and intensities in codes are for backends that take them, as gnomon's do; the concept asks for floats alone.
 template <typename Backend, texel_row Row, depth_row Depths, intensity_row Intensities>
-    requires backend_for<Backend, texel_in<Row>, box<0>>
+    requires receives<Backend, texel_in<Row>>
 void receive(const Backend& run, const Row& texels, const Depths& z, Intensities&& intensity, const rule& r = {}) noexcept {
     run.receive(strided_span<const texel_in<Row>>(strided_span(texels)),
                 strided_span<const std::remove_const_t<element_in<const Depths>>>(strided_span(z)), strided_span(intensity), r);
@@ -46,7 +51,7 @@ void receive(const Backend& run, const Row& texels, const Depths& z, Intensities
 
 /// Receivers anywhere: receive(simd<>{}, soft, x, y, depths, intensities), x and y in texels.
 template <typename Backend, typename T, depth_row Depths, intensity_row Intensities>
-    requires backend_for<Backend, std::remove_const_t<T>, box<0>>
+    requires receives<Backend, std::remove_const_t<T>>
 void receive(const Backend& run, image_view<T> map, strided_span<const float> x, strided_span<const float> y, const Depths& z,
              Intensities&& intensity, const rule& r = {}) noexcept {
     run.receive(image_view<const std::remove_const_t<T>>(map), x, y,

@@ -149,7 +149,7 @@ void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> fr
 
 /// A whole image of receivers, one to one on the texels of the map, as jobs of an executor; what the three images share is written.
 template <typename T, typename Z, typename Intensity, typename Backend, typename On>
-    requires backend_for<Backend, std::remove_const_t<T>, box<0>>
+    requires receives<Backend, std::remove_const_t<T>>
 void receive(const Backend& run, image_view<T> map, image_view<Z> z, image_view<Intensity> intensity, const rule& r, On&& on) {
     static_assert(detail::executor_is_callable<On>());
     in_bands(on, lesser(map.height(), lesser(z.height(), intensity.height())), [&](int y0, int y1) {

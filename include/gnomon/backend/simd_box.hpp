@@ -34,6 +34,7 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
     static constexpr int margin = Kernel::radius * channels, window = Kernel::total * channels;
     static constexpr int strip = piece_bytes / 4 / channels * channels;
     static constexpr int line_size = window + strip + 2 * step;
+    static constexpr int texels_of_nothing = (line_size + channels - 1) / channels;
     using normalised =
         division<std::uint64_t{Kernel::total} * Kernel::total, static_cast<std::uint64_t>(Texel::channel_type::scale)>;
 
@@ -99,7 +100,7 @@ void filter_box(image_view<const Texel> from, image_view<Texel> to, texel_rect r
     alignas(64) std::uint32_t sums[static_cast<std::size_t>(pass::line_size)];
     alignas(64) std::uint32_t all[static_cast<std::size_t>(pass::step + pass::line_size)];
     alignas(64) storage made[static_cast<std::size_t>(pass::strip + pass::step)];
-    Texel nothing[static_cast<std::size_t>((pass::line_size + channels - 1) / channels)];
+    Texel nothing[static_cast<std::size_t>(pass::texels_of_nothing)];
     for (Texel& each : nothing) each = Texel::clear();
     for (int i = 0; i < pass::step; ++i) all[i] = 0;
     std::uint32_t* const ends = all + pass::step; // of the columns up to each; of none, before the first
@@ -123,11 +124,13 @@ void filter_box(image_view<const Texel> from, image_view<Texel> to, texel_rect r
     }
 }
 
-/// filter_region in lanes, for a region within both images. False, and nothing done, where filter_rows says so.
+/// filter_region in lanes, for a region within both images. False, and nothing done, without a scratch, which boxes can do without
+/// but `scalar` cannot, and where filter_rows says so.
 template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
             std::span<line_element<Texel>> scratch) noexcept {
     if constexpr (runs_sums<Kernel, Texel>) {
+        if (scratch.empty()) return false;
         filter_box<Isa, Kernel, Texel>(from, to, region);
         return true;
     } else {
