@@ -180,27 +180,24 @@ template <typename Isa, texel_format Texel> struct byte_decision {
 
     GNOMON_LANES ints words(bool on, int n) noexcept { return Isa::repeat32(on ? static_cast<std::uint32_t>(n) * 0x10001u : 0u); }
 
-    /// What half a register of answers comes from, and their upper bytes.
-    struct compared {
-        ints high, last, shade;
-    };
     /// k = 1. The high half of 128 m Z, h, against 128 f = 256 (M-E) + 256:
     ///     h >= 128 f       128 m Z >= 65536 * 128 f > 65535 * 128 f     shadowed
     ///     h <= 128 f - 2   128 m Z < 65536 (128 f - 1) <= 65535 * 128 f, for 128 f <= 65536     lit
     /// What is left, h = 128 f - 1, is unsure; so is h = 0 where E > M and the difference counts as nothing, since there every Z that
     /// is not 0 is shadowed. One receiver in 10,000, unless all lie where their shadow begins.
-    GNOMON_LANES compared compare(const ints& moved, const ints& pairs, const ints& depths) noexcept {
-        const ints filled = Isa::either(pairs, Isa::repeat32(0x00FF00FF)); // 256 M + 255
-        const ints z = Isa::subtract_to_zero16(depths, moved);
-        const ints high = Isa::multiply_high16(Isa::subtract16(filled, Isa::repeat32(0x007F007F)), z);
-        const ints last = Isa::subtract_to_zero16(filled, Isa::template shift_left16<8>(pairs));
-        return {high, last, Isa::upper_where_greater16(pairs, high, last)};
-    }
     GNOMON_LANES bool quick(const ints& moved, const std::uint8_t* texels, const std::uint16_t* depths, std::uint8_t* to) noexcept {
-        const compared first = compare(moved, Isa::load(texels), Isa::load(depths));
-        const compared second = compare(moved, Isa::load(texels + Isa::bytes), Isa::load(depths + Isa::bytes / 2));
-        if (Isa::any_equal16(first.high, first.last, second.high, second.last)) return false;
-        Isa::store(to, Isa::narrow16(first.shade, second.shade));
+        const ints low = Isa::repeat32(0x00FF00FF), half = Isa::repeat32(0x007F007F);
+        ints high[2], last[2], shade[2];
+        GNOMON_UNROLL(2)
+        for (int i = 0; i < 2; ++i) {
+            const ints pairs = Isa::load(texels + i * Isa::bytes), filled = Isa::either(pairs, low); // 256 M + 255
+            const ints z = Isa::subtract_to_zero16(Isa::load(depths + i * (Isa::bytes / 2)), moved);
+            high[i] = Isa::multiply_high16(Isa::subtract16(filled, half), z);
+            last[i] = Isa::subtract_to_zero16(filled, Isa::template shift_left16<8>(pairs));
+            shade[i] = Isa::upper_where_greater16(pairs, high[i], last[i]);
+        }
+        if (Isa::any_equal16(high[0], last[0], high[1], last[1])) return false;
+        Isa::store(to, Isa::narrow16(shade[0], shade[1]));
         return true;
     }
 
