@@ -12,8 +12,12 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <random>
 #include <vector>
@@ -596,11 +600,84 @@ TEST_CASE("a view that is smaller than the map is its upper left part, and a par
     CHECK_FALSE(larger(100, 50).occupied());
 }
 
-TEST_CASE("a polygon keeps its first corners and writes no more than it has room for") {
-    detail::projected_polygon polygon;
-    for (int i = 0; i < detail::most_corners + 2; ++i) polygon.add(glm::dvec4(i));
-    CHECK(polygon.count == detail::most_corners);
-    for (int i = 0; i < polygon.count; ++i) CHECK(polygon.corner[i] == glm::dvec4(i));
+TEST_CASE("a polygon has room for whatever five planes make of a triangle, every other corner below them") {
+    int most = 3;
+    for (int plane = 0; plane < 5; ++plane) most += most / 2;
+    CHECK(detail::most_corners == most);
+
+    detail::projected_polygon polygon; // 13 corners, six of them below the last plane
+    for (int i = 0; i < 13; ++i) polygon.add(glm::dvec4(i, 0.0, i % 2 == 0 ? 1.0 : -1.0, 1.0));
+    polygon.keep_above({0.0, 0.0, 1.0, 0.0});
+    REQUIRE(polygon.count == most);
+    for (int i = 0; i < most; ++i) { // a corner that is kept, then the cuts of the two edges behind it
+        const double x = i % 3 == 0 ? i / 3 * 2 : i / 3 * 2 + (i % 3 == 1 ? 0.5 : 1.5);
+        CHECK(polygon.corner[i] == glm::dvec4(x, 0.0, i % 3 == 0 ? 1.0 : 0.0, 1.0));
+    }
+}
+
+TEST_CASE("a triangle of which rounding makes more corners than planes can cut keeps them all") {
+    const auto corners_left = [](std::initializer_list<glm::dvec4> corners) {
+        detail::projected_polygon polygon;
+        for (const glm::dvec4& h : corners) polygon.add(h);
+        polygon.keep_drawable(true);
+        return polygon.count;
+    };
+    // Found by chance. Exactly cut they would have no more than 8.
+    CHECK(corners_left({{0x1.f7ebe461d6f94p+23, 0x1.2d20dafdfc93ep+14, -0x1.882d27c98601fp-2, 0x1.e150ed19b49bep+66},
+                        {-0x1.b0b962d2d7fe4p+25, -0x1.bdcf085d89465p+4, 0x1.8655ac4fbadacp+20, -0x1.bdcf085d89464p+4},
+                        {0x1.f7ebe461d6f94p+23, 0x1.770c675fa87b5p+23, 0x1.5c120d0097ae8p+52, 0x1.e359c465d28edp+3}}) > 8);
+    CHECK(corners_left({{-0x1.eeafe97255221p+23, -0x1.d580e41467683p-1016, 0x1.3a50e5e4fd09cp-57, -0x1.03a9f72d5651fp+35},
+                        {0.0, 0x0.0000000000007p-1022, -0x0.00000000002dep-1022, -0x1.dc7b8ec7fa097p-1017},
+                        {0x0.000000000172cp-1022, 0x0.000000000016cp-1022, 0x0.0000000000038p-1022, 0x0.000987c7179e4p-1022}}) >
+          10);
+}
+
+TEST_CASE("no texel is drawn twice where an edge begins on the near plane itself and ends a billion texels away") {
+    glm::dmat4 m(0.0); // x W = 63.1... X + c Z + t, where c + t is half a 256th beyond a texel's middle
+    constexpr double beside = 100.5 + 0.5 / 256.0, slant = -0x1.904cccccccccdp+8;
+    m[0] = {63.123456789, 0.0, 0.0, 0.0};
+    m[1] = {0.0, 63.123456789, 0.0, 0.0};
+    m[2] = {slant, 100.25, 1.0 / 1024.0, 1.0};
+    m[3] = {beside - slant, 0.0, -1.0 / 1024.0, 0.0};
+    const light_frame light(m, {256, 256}, 1.0, 1025.0);
+    const glm::dvec3 on_plane(0.0, 0.0, 1.0);
+    const glm::dvec3 others[][3]{{{-0x1.038e04p+24, 0x1.a3f3a2p+23, 0x1.2339a8p+1},
+                                  {-0x1.320b68p-4, 0x1.928f4p-3, 0.5},
+                                  {-0x1.038e0cp+24, 0x1.a3f392p+23, 0x1.249f1p+1}},
+                                 {{-0x1.038e08p+24, 0x1.6ab196p+22, 0x1.a1b7fcp+0},
+                                  {0x1.2c577p-2, 0x1.2ebfap-2, 0.5},
+                                  {-0x1.038e12p+24, 0x1.6ab178p+22, 0x1.102ff6p+1}},
+                                 {{-0x1.038e02p+24, 0x1.2ddb48p+24, 0x1.3e8d08p+1},
+                                  {0x1.3469e8p-2, -0x1.c790dcp-3, 0.5},
+                                  {-0x1.038e06p+24, 0x1.2ddb44p+24, 0x1.7bebb8p+1}}};
+    for (const auto& [end, one_side, other_side] : others) {
+        mesh_data pair;
+        pair.add(end, on_plane, one_side);
+        pair.add(on_plane, end, other_side);
+        const canvas drawn = draw(pair.mesh(), light);
+        CHECK(drawn.texels() > 0);
+        CHECK(*std::ranges::max_element(drawn.count) == 1);
+    }
+}
+
+TEST_CASE("a triangle seen edge-on has the depth of its first corner wherever snapping lets it cover a texel") {
+    dice roll{std::mt19937_64(11)};
+    const light_frame light(
+        glm::dmat4(glm::dmat3(glm::dvec3(1.0 / 256.0, 0.0, 0.0), glm::dvec3(0.0, 1.0 / 256.0, 0.0), glm::dvec3(0.0, 0.0, 1.0))),
+        {1024, 1024}, 1.0, 1.0);
+    int covered = 0, wrong = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const auto quarters = [&roll] { return std::floor(roll(-100000.0, 100000.0)) + 0.25; };
+        const glm::dvec3 first(130000.0, 130000.0, roll(0.0, 1.0)), along(quarters(), quarters(), roll(-1.0, 1.0));
+        mesh_data line;
+        line.add(first, first + along, first + along * 0.5);
+        rasterize(line.mesh(), light, everywhere, faces::both, [&](int, int, float z) {
+            ++covered;
+            wrong += std::bit_cast<std::uint32_t>(z) != std::bit_cast<std::uint32_t>(line.positions[0].z);
+        });
+    }
+    CHECK(wrong == 0);
+    CHECK(covered > 100);
 }
 
 TEST_CASE("far bound: a receiver on the near plane itself ends the shadow of what is before it") {

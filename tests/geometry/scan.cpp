@@ -139,14 +139,16 @@ TEST_CASE("a convex polygon is the sum of the triangles of its fan") {
     dice roll{std::mt19937_64(4)};
     int wrong = 0, corners_seen = 0;
     for (int i = 0; i < 20000; ++i) {
-        // Corners in order of angle on a circle, so that the polygon is convex.
-        static constexpr std::int64_t circle[12][2]{{1000, 0},  {866, 500},   {500, 866},   {0, 1000},  {-500, 866}, {-866, 500},
-                                                    {-1000, 0}, {-866, -500}, {-500, -866}, {0, -1000}, {500, -866}, {866, -500}};
-        fixed_point polygon[gnomon::detail::most_corners];
+        // Corners of a parabola cut off by a line, and so in convex position, turned by quarters.
+        constexpr int most = gnomon::detail::most_corners;
+        fixed_point polygon[most];
         int n = 0;
-        const std::int64_t shift_x = roll(-128, 128), shift_y = roll(-128, 128), size = roll(100, 2000);
-        for (int k = 0; k < 12 && n < gnomon::detail::most_corners; ++k)
-            if (roll(0, 2) > 0) polygon[n++] = {shift_x + circle[k][0] * size / 1000, shift_y + circle[k][1] * size / 1000};
+        const std::int64_t shift_x = roll(-128, 128), shift_y = roll(-128, 128), size = roll(1, 20), steep = roll(1, 3);
+        for (std::int64_t k = 0; k < most; ++k) {
+            if (i % 8 != 0 && roll(0, 2) == 0) continue;
+            const std::int64_t u = (k - most / 2) * size * 8, v = ((k - most / 2) * (k - most / 2) - 40) * size * steep;
+            polygon[n++] = {shift_x + (i % 2 == 0 ? u : -v), shift_y + (i % 2 == 0 ? v : u)};
+        }
         if (n < 3) continue;
         corners_seen = n > corners_seen ? n : corners_seen;
         counted whole({-9, -9, 9, 9}), fan({-9, -9, 9, 9});

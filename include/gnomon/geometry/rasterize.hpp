@@ -41,15 +41,17 @@ struct projected_polygon {
     glm::dvec4 corner[most_corners];
     int count = 0;
 
-    void add(const glm::dvec4& h) noexcept {
-        if (count < most_corners) corner[count++] = h;
-    }
+    [[nodiscard]] const glm::dvec4* begin() const noexcept { return corner; }
+    [[nodiscard]] const glm::dvec4* end() const noexcept { return corner + count; }
+
+    void add(const glm::dvec4& h) noexcept { corner[count++] = h; }
 
     /// Cuts off what is below `plane`. A cut edge is always computed from its kept end, so both its triangles get the same corner.
     void keep_above(const glm::dvec4& plane) noexcept {
         double height[most_corners]{};
+        int seen = 0;
         bool whole = true;
-        for (int i = 0; i < count; ++i) whole = (height[i] = glm::dot(plane, corner[i])) >= 0.0 && whole;
+        for (const glm::dvec4& h : *this) whole = (height[seen++] = glm::dot(plane, h)) >= 0.0 && whole;
         if (whole) return;
         const projected_polygon uncut = *this;
         count = 0;
@@ -66,10 +68,9 @@ struct projected_polygon {
     /// Its corners on the map, snapped. False if nothing is left to draw, or if a corner was not finite: such a one is above no
     /// plane, so it has been cut off, and the cut has left NaN in W.
     [[nodiscard]] bool snap(fixed_point* snapped) const noexcept {
-        for (int i = 0; i < count; ++i) {
-            const glm::dvec4& h = corner[i];
+        for (const glm::dvec4& h : *this) {
             if (!(h.w > 0.0)) return false;
-            snapped[i] = fixed_point::nearest(h.x / h.w, h.y / h.w);
+            *snapped++ = fixed_point::nearest(h.x / h.w, h.y / h.w);
         }
         return count >= 3;
     }
@@ -78,10 +79,8 @@ struct projected_polygon {
     void keep_drawable(bool near_plane_cuts) noexcept {
         constexpr double reach = fixed_point::reach;
         bool uncut = true; // and that most are, the half of this octahedron tells sooner
-        for (int i = 0; i < count; ++i) {
-            const glm::dvec4& h = corner[i];
+        for (const glm::dvec4& h : *this)
             uncut = reach * h.w - std::abs(h.x) - (std::abs(h.y) + h.z * 0.0) > 0.0 && (!near_plane_cuts || h.z > 0.0) && uncut;
-        }
         if (uncut) return;
         if (near_plane_cuts) keep_above({0.0, 0.0, 1.0, 0.0});
         keep_above({1.0, 0.0, 0.0, reach});
@@ -155,12 +154,12 @@ class depth_surface {
     double area_{};
 };
 
-/// The three corners of triangle `first / 3`, projected. Empty if an index is off the positions.
+/// The three corners of triangle `first / 3`, projected. Fewer if an index is off the positions.
 [[nodiscard]] inline projected_polygon project(const triangle_mesh& mesh, int first, const glm::dmat4& to_map) noexcept {
     projected_polygon triangle;
     for (int i = 0; i < 3; ++i) {
         const std::uint32_t index = mesh.indices[first + i];
-        if (index >= static_cast<std::uint32_t>(mesh.positions.size())) return {};
+        if (index >= static_cast<std::uint32_t>(mesh.positions.size())) break;
         triangle.add(to_map * glm::dvec4(glm::dvec3(mesh.positions[static_cast<int>(index)]), 1.0));
     }
     return triangle;
@@ -241,7 +240,7 @@ light_footprint rasterize(const triangle_mesh& mesh, const light_frame& light, t
         for (int x = x0 + 1; x < x1; ++x) sink(x, y, last = depth(x, y));
         touched.add(y, x0, x1, first, last);
     };
-    for (int first = 0; first + 2 < mesh.indices.size(); first += 3)
+    for (int first = 0; mesh.indices.size() - first > 2; first += 3)
         detail::draw_triangle(mesh, first, to_map, handedness, light, target, side, where, run);
     return touched.footprint();
 }

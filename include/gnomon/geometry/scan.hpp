@@ -53,7 +53,8 @@ class edge_walk {
   public:
     edge_walk() = default;
     /// From either end: the same edge gives the same walk. Starts on the first of its rows that is not above `top`.
-    constexpr edge_walk(fixed_point a, fixed_point b, int top) noexcept {
+    constexpr edge_walk(fixed_point a, fixed_point b, int top) noexcept
+        : row_{}, end_{}, column_{}, rest_{}, step_{}, step_rest_{}, unit_{} {
         if (b.y < a.y) {
             const fixed_point swapped = a;
             a = b;
@@ -91,12 +92,13 @@ class edge_walk {
         return quotient;
     }
 
-    int row_{}, end_{};
-    std::int64_t column_{}, rest_{}, step_{}, step_rest_{}, unit_{};
+    int row_, end_;
+    std::int64_t column_, rest_, step_, step_rest_, unit_;
 };
 
-/// The most corners of a polygon: a triangle that five planes have cut has 8, and rounding may add a needle.
-inline constexpr int most_corners = 10;
+/// The most corners of a triangle that five planes have cut. Exactly cut it has 8 at most; but by rounding a plane may find every other
+/// corner below it, and put two in the place of each: of 3 corners it makes 4, then 6, 9, 13, 19.
+inline constexpr int most_corners = 19;
 
 /// Calls `span(y, x0, x1)` for every run of texels of `target` that a polygon of 3 to `most_corners` corners covers. Even-odd
 /// where it crosses itself, as a convex one may after snapping, by a texel's fraction.
