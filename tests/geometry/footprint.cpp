@@ -234,6 +234,60 @@ TEST_CASE("empty, absent and infinite bounds") {
     }
 }
 
+TEST_CASE("every point of a box without end that a spot light sees is in its footprint, and one that is wholly behind it is not on "
+          "the map") {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    dice roll{std::mt19937_64(4)};
+    int points = 0, outside = 0, part = 0, empty = 0;
+    for (int i = 0; i < 6000; ++i) {
+        const light_frame light =
+            spot_light{.position = roll.vector(5.0), .direction = roll.vector(1.0), .near_plane = 1.0}.frame(map_size);
+        const double end = i % 3 == 0 ? std::exp(roll(3.0, 69.0)) : infinity; // to 1e30
+        bounding_box box{roll.vector(5.0), {}};
+        box.upper = box.lower + glm::abs(roll.vector(5.0));
+        for (int axis = 0; axis < 3; ++axis) {
+            if (roll(0.0, 2.0) < 1.0) box.lower[axis] = -end;
+            if (roll(0.0, 2.0) < 1.0) box.upper[axis] = end;
+        }
+        const light_footprint f = footprint(box, light);
+        part += !f.empty() && f.texels != whole(map_size);
+        empty += f.empty();
+        const bounding_box around{(glm::max)(box.lower, glm::dvec3(-20.0)), (glm::min)(box.upper, glm::dvec3(20.0))};
+        seen points_of_box;
+        for (int k = 0; k < 100; ++k) points_of_box.add(light, roll.inside(around), f);
+        points += points_of_box.points;
+        outside += points_of_box.outside;
+    }
+    CHECK(outside == 0);
+    CHECK(points > 20000);
+    CHECK(part > 200);
+    CHECK(empty > 200);
+}
+
+TEST_CASE("a box has a footprint of its own while no edge that is cut ends 2^40 texels away") {
+    const glm::dmat4 rows{glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 0, 1.0 / 6.0, 1),
+                          glm::dvec4(0, 0, -1.0 / 3.0, 0)};
+    const light_frame light(rows, {8, 8}, 2.0, 8.0); // looks along z from 0: a texel on its near plane is 2 wide
+    for (const int axis : {0, 1}) {
+        bounding_box box{{0, 0, 1}, {1.0, 1.0, 3.0}};
+        const auto touched = [&](double end) {
+            box.upper[axis] = end;
+            return footprint(box, light).texels;
+        };
+        CHECK(touched(0x1p41 - 0x1p9) == (axis == 0 ? texel_rect{0, 0, 8, 1} : texel_rect{0, 0, 1, 8}));
+        CHECK(touched(0x1p41) == whole({8, 8}));
+    }
+}
+
+TEST_CASE("a ball without end touches the whole map, wherever its centre is") {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    dice roll{std::mt19937_64(5)};
+    for (int i = 0; i < 30; ++i)
+        for (const double x : {-infinity, -1e300, 0.0, 1e300, infinity})
+            CHECK(footprint(bounding_sphere{{x, 10.0, 0.5}, infinity}, any_light(roll, i)) ==
+                  light_footprint{whole(map_size), {0.0f, 1.0f}});
+}
+
 TEST_CASE("bounds that nobody has set are a point: the origin of the world") {
     CHECK((bounding_sphere{}.centre == glm::dvec3(0.0) && !(bounding_sphere{}.radius > 0.0) && !bounding_sphere{}.empty()));
     CHECK((bounding_box{}.lower == glm::dvec3(0.0) && bounding_box{}.upper == glm::dvec3(0.0)));

@@ -46,16 +46,22 @@ struct map_bounds {
 };
 
 /// Infinite bounds become merely enormous, where arithmetic makes no NaN of them.
-[[nodiscard]] constexpr double finite(double v) noexcept { return v > -1e30 ? (v < 1e30 ? v : 1e30) : -1e30; }
+inline constexpr double enormous = 1e30;
+[[nodiscard]] constexpr double finite(double v) noexcept { return lesser(greater(v, -enormous), enormous); }
 [[nodiscard]] inline glm::dvec3 finite(const glm::dvec3& v) noexcept { return {finite(v.x), finite(v.y), finite(v.z)}; }
+
+/// What bounds can touch of which nothing better is known.
+[[nodiscard]] constexpr light_footprint all_of(extent size) noexcept { return {whole(size), {0.0f, 1.0f}}; }
 } // namespace detail
 
 /// What of the map a box can touch, as a caster or as a receiver: every point of it lies in, and no side is more than 1 + 1/1024
 /// texel too far out.
 ///
 /// A directional light's near plane cuts nothing off, since casters before it are kept at depth 0. A spot light's does: the box is
-/// clipped exactly, and one wholly before the near plane or behind the light is empty. Beyond the far plane the depth is 1. Empty
-/// for empty bounds, invalid frames, and off the map. Costs 8 projections, and up to 12 more where a spot's near plane cuts.
+/// clipped exactly, and one wholly before the near plane or behind the light is empty; if an edge that is cut ends more than 2^40
+/// texels away, as they are on the near plane, or never, doubles do not tell where it is cut, and the footprint is the whole map.
+/// Beyond the far plane the depth is 1. Empty for empty bounds, invalid frames, and off the map. Costs 8 projections, and up to 12
+/// more where a spot's near plane cuts.
 [[nodiscard]] inline light_footprint footprint(const bounding_box& box, const light_frame& light) noexcept {
     if (box.empty() || !light.valid()) return {};
     const bounding_box solid{detail::finite(box.lower), detail::finite(box.upper)};
@@ -67,22 +73,29 @@ struct map_bounds {
         const glm::dvec4 h = glm::mix(in, out, in.z / (in.z - out.z));
         return glm::dvec4(h.x, h.y, 0.0, light.near_w()); // depth and W are known there, and no rounding may spoil the divide
     };
+    const auto close = [&light](const glm::dvec4& h) { return glm::length(h) < 0x1p40 * light.near_w(); };
     detail::map_bounds bounds;
     for (int i = 0; i < 8; ++i) {
         if (!visible(corners[i])) continue;
         bounds.include(corners[i]);
-        for (const int axis : {1, 2, 4})
-            if (!visible(corners[i ^ axis])) bounds.include(cut(corners[i], corners[i ^ axis]));
+        for (const int axis : {1, 2, 4}) {
+            const glm::dvec4& other = corners[i ^ axis];
+            if (visible(other)) continue;
+            if (!close(corners[i]) || !close(other)) return detail::all_of(light.size());
+            bounds.include(cut(corners[i], other));
+        }
     }
     return bounds.rounded(light.size());
 }
 
 /// The same of a ball: bounded by the planes through the light that touch it, so no side is farther out either.
 ///
-/// Where a spot light's near plane cuts the ball, it is the footprint of the box around it: conservative, and looser.
+/// Where a spot light's near plane cuts the ball, it is the footprint of the box around it: conservative, and looser. A ball without
+/// end touches the whole map, wherever its centre is.
 [[nodiscard]] inline light_footprint footprint(const bounding_sphere& ball, const light_frame& light) noexcept {
     if (ball.empty() || !light.valid()) return {};
-    const double r = detail::finite(ball.radius);
+    if (ball.radius > detail::enormous) return detail::all_of(light.size());
+    const double r = ball.radius;
     const glm::dvec4 centre(detail::finite(ball.centre), 1.0), h = light.matrix() * centre;
     const glm::dvec3 x(detail::row(light.matrix(), 0)), y(detail::row(light.matrix(), 1)), z(detail::row(light.matrix(), 2)),
         w(detail::row(light.matrix(), 3));
