@@ -323,3 +323,13 @@ TEST_CASE("a clip space that nobody has set is that of OpenGL") {
     CHECK(clip_space{}.depth == clip_depth::minus_one_to_one);
     CHECK_FALSE(clip_space{}.row_0_is_top);
 }
+
+TEST_CASE("a matrix so short that a ten thousand millionth of its square is 0 makes a frame as at any length") {
+    const glm::dmat4 matrix(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -2, -1, 0, 0, -2, 0); // looks along -z, from 1 to 2
+    for (const double length : {1.0, 0x1p-522}) {
+        const light_frame light = light_frame::from_matrix(matrix * length, {64, 64}, {clip_depth::zero_to_one});
+        REQUIRE(light.valid());
+        CHECK(light.near_w() / length == doctest::Approx(1.0));
+        CHECK(light.far_w() / length == doctest::Approx(2.0));
+    }
+}

@@ -331,6 +331,12 @@ TEST_CASE("what is nowhere in doubles is nowhere in floats and no origin makes i
         REQUIRE(lamp_far_off.valid());
         CHECK(rebase_origin(lamp_far_off) == glm::dvec3(0.0));
     }
+    // Finite though no sum of its coordinates is.
+    const light_frame outermost(glm::dmat4(1e-50, 0, 0, 0, 0, 1e-50, 0, 0, 0, 0, 1e-150, 0, -1.2e258, -1.2e258, 0, 1), {64, 64},
+                                1.0, 1.0);
+    const glm::dvec3 origin = rebase_origin(outermost);
+    CHECK(std::abs(origin.x / 1.2e308 - 1.0) < 1e-9);
+    CHECK(std::abs(origin.y / 1.2e308 - 1.0) < 1e-9);
     const light_frame huge(glm::dmat4(1e90, 0, 0, 0, 0, 1e90, 0, 0, 0, 0, 1e90, 0, 0, 0, 0, 1), {64, 64}, 1.0, 1.0);
     CHECK_FALSE(rebased_frame(huge).to_map({0, 0, 0}).depth > 1.0f);
 }

@@ -55,7 +55,7 @@ namespace detail {
     const double cell = std::exp2(std::floor(std::log2(reach)) - 2.0);
     const glm::dvec3 snapped(std::round(middle.x / cell) * cell, std::round(middle.y / cell) * cell,
                              std::round(middle.z / cell) * cell);
-    const bool finite = std::isfinite(snapped.x + snapped.y + snapped.z);
+    const bool finite = std::isfinite(glm::dot(snapped, glm::dvec3(0.0)));
     return finite ? snapped : glm::dvec3(0.0);
 }
 
