@@ -450,6 +450,44 @@ TEST_CASE("a sliver over half a million texels, of an area that doubles do not t
     CHECK(covered > 20);
 }
 
+TEST_CASE("corners a hair below a tie are snapped in lanes as the scalar rasteriser snaps them") {
+    mesh_data half; // of a square: its longest edge runs through centres, if its corners are snapped upwards
+    half.add({0, 0, 0.5}, {0, 10, 0.5}, {10, 0, 0.5});
+    for (const int axis : {0, 1}) {
+        std::size_t fewest = 100, most = 0;
+        for (const double hair : {0.2, 0.4, 0.6, 0.8, 1.1, 1.6, 2.2}) {
+            glm::dmat4 at_tie(1.0);
+            at_tie[3][axis] = (128.5 - hair * 0x1p-23) / 256.0;
+            at_tie[3][1 - axis] = 0.25;
+            const light_frame light(at_tie, {16, 16}, 1.0, 1.0);
+            const record expected = draw(scalar{}, half.mesh(), light, everywhere, faces::both);
+            fewest = lesser(fewest, expected.texels.size());
+            most = greater(most, expected.texels.size());
+            CAPTURE(hair);
+            for_each_isa(
+                [&]<typename Isa>() { CHECK(draw(simd<Isa>{}, half.mesh(), light, everywhere, faces::both) == expected); });
+        }
+        CHECK(fewest < most);
+    }
+}
+
+TEST_CASE("lanes as wide as can be, 32 doubles, cast rows that end with a register, before it and behind it") {
+    test::for_isa<emulated<256>>([]<typename Isa>() {
+        for (const int columns : {31, 32, 33, 64}) {
+            mesh_data sheet;
+            sheet.add({-256, -256, 0.25}, {80000, -256, 0.25}, {-256, 80000, 0.25});
+            const extent around{columns + 40, 3};
+            image<rg8> expected(around, rg8::clear()), made(around, rg8::clear());
+            const texel_rect inner{3, 1, 3 + columns, 2};
+            cast_triangles(expected.view().part(inner), sheet.mesh(), plain_frame({columns, 1}));
+            cast_triangles(simd<Isa>{}, made.view().part(inner), sheet.mesh(), plain_frame({columns, 1}));
+            CAPTURE(columns);
+            CHECK(test::differences(expected, image<rg8>(around, rg8::clear())) == columns);
+            CHECK(test::differences(made, expected) == 0);
+        }
+    });
+}
+
 TEST_CASE("a triangle whose depth is infinite at a corner is left out, in lanes too") {
     const light_frame plain = plain_frame({64, 64});
     glm::dmat4 deep = plain.matrix();
