@@ -1,4 +1,4 @@
-// From the world to texels and depths.
+// From the world to texels and depths, by plain loops and in whichever lanes the processor has.
 //
 // geometry/ computes in double with GLM, plainly, and here fused multiply-adds do change the last digits of a double. So there are
 // two kinds of lines. *exact*: lights, triangles and bounds whose every product and sum has few digits, so that nothing is rounded
@@ -11,7 +11,7 @@
 #include "../support/images.hpp"
 
 #include <gnomon/geometry/rasterize.hpp>
-#include <gnomon/geometry/rasterize_lanes.hpp> // compiles on every processor
+#include <gnomon/geometry/rasterize_lanes.hpp>
 
 #include <array>
 #include <vector>
@@ -61,7 +61,7 @@ hash hash_of(const light_footprint& f) {
 
 /// Everything that takes a frame, for 40 lights.
 void print_kind(const char* kind, bool exact) {
-    hash points, boxes, balls, texels, matrices;
+    hash points, boxes, balls, texels, texels_in_lanes, matrices;
     world_dice dice{test::dice(120), exact};
     for (int i = 0; i < 40; ++i) {
         const bool perspective = !exact && i % 2 != 0; // a divide is exact for powers of two alone
@@ -101,18 +101,24 @@ void print_kind(const char* kind, bool exact) {
         }
         mesh.positions = corners;
         mesh.indices = order;
-        texels.add(
-            hash_of(rasterize(mesh, light, whole(size), faces::both, [&](int x, int y, float z) { texels.add(x, y, z); })).value());
-        image<rgba16> map(size, rgba16::clear());
-        cast_triangles(map.view(), mesh, light, 0.75f, faces::lit_side);
-        bound_triangles(map.view(), mesh, light, faces::dark_side);
-        texels.add(test::hash(map));
+        const auto draw = [&](auto run, hash& h) {
+            h.add(hash_of(rasterize(run, mesh, light, whole(size), faces::both, [&h](int x, int y, float z) {
+                      h.add(x, y, z);
+                  })).value());
+            image<rgba16> map(size, rgba16::clear());
+            cast_triangles(run, map.view(), mesh, light, 0.75f, faces::lit_side);
+            bound_triangles(run, map.view(), mesh, light, faces::dark_side);
+            h.add(test::hash(map));
+        };
+        draw(scalar{}, texels);
+        draw(simd<>{}, texels_in_lanes);
     }
     print("to_map", "geometry", kind, points);
     print("footprint_of_box", "geometry", kind, boxes);
     print("footprint_of_ball", "geometry", kind, balls);
     print("clip_matrix_and_back", "geometry", kind, matrices);
     print("rasterize", "geometry", kind, texels);
+    print("rasterize_in_lanes", "geometry", kind, texels_in_lanes); // the number of `rasterize`
 }
 
 } // namespace
