@@ -105,8 +105,9 @@ TEST_CASE("the largest coordinates are as exact as the small ones") {
 }
 
 TEST_CASE("a centre that an edge passes by as closely as can be is on the side where it is") {
-    // At y = 128, the edge is at 128 + 1/255, right of the first texel's centre; mirrored, at 128 - 1/255.
-    constexpr fixed_point left{-1000, 100}, right{1000, 100}, edges[2][2]{{{127, 0}, {129, 255}}, {{129, 0}, {127, 255}}};
+    // At y = 128, the edge is at 128 + 1/255, right of the first texel's centre; mirrored, at 128 - 1/255. Then 1/1279, after two rows.
+    constexpr fixed_point left{-1000, 100}, right{1000, 100},
+        edges[4][2]{{{127, 0}, {129, 255}}, {{129, 0}, {127, 255}}, {{127, -512}, {129, 767}}, {{129, -512}, {127, 767}}};
     for (const auto& edge : edges)
         for (const fixed_point side : {left, right}) {
             counted drawn({-2, -2, 3, 3});
