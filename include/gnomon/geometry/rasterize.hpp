@@ -154,12 +154,15 @@ class depth_surface {
     double area_{};
 };
 
-/// The three corners of triangle `first / 3`, projected. Fewer if an index is off the positions.
+/// The three corners of triangle `first / 3`, projected. Empty if an index is off the positions.
 [[nodiscard]] inline projected_polygon project(const triangle_mesh& mesh, int first, const glm::dmat4& to_map) noexcept {
     projected_polygon triangle;
     for (int i = 0; i < 3; ++i) {
         const std::uint32_t index = mesh.indices[first + i];
-        if (index >= static_cast<std::uint32_t>(mesh.positions.size())) break;
+        if (index >= static_cast<std::uint32_t>(mesh.positions.size())) {
+            triangle.count = 0; // of two corners a cut would make three
+            break;
+        }
         triangle.add(to_map * glm::dvec4(glm::dvec3(mesh.positions[static_cast<int>(index)]), 1.0));
     }
     return triangle;
