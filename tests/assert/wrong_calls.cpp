@@ -11,11 +11,15 @@ const char* sentence_of_the_failed = "";
 #include <gnomon/backend/simd.hpp>
 #include <gnomon/filter/pyramid.hpp>
 #include <gnomon/filter/separable.hpp>
+#include <gnomon/gl/object.hpp>
+#include <gnomon/gl/problem.hpp>
+#include <gnomon/gl/state.hpp>
 #include <gnomon/grid/reference_grid.hpp>
 #include <gnomon/grid/regions.hpp>
 #include <gnomon/grid/tile_grid.hpp>
 #include <gnomon/texel/image.hpp>
 
+#include "../support/fake_gl.hpp"
 #include "../support/images.hpp"
 #include "../support/lanes.hpp"
 
@@ -172,4 +176,43 @@ TEST_CASE("a pyramid of a map or of tiles that it was not made for is a wrong ca
     CHECK(complaint() == built);
     (void)sample(small.view(), mips, 1.0f, 1.0f, 1.0f);
     CHECK(complaint() == "gnomon: a pyramid is sampled together with the map it was built from");
+}
+
+TEST_CASE("a framebuffer of more than four colours is a wrong call and draws into the first four") {
+    test::fake_gl fake("3.3");
+    const auto c = *gl::context::of(fake.table);
+    CHECK(gl::make_framebuffer(c, {1u, 2u, 3u, 4u}));
+    CHECK(complaint() == "");
+    fake.calls.clear();
+    fake.table.DrawBuffers = [](int count, const unsigned*) { CHECK(count == 4); };
+    CHECK(gl::make_framebuffer(c, {1u, 2u, 3u, 4u, 5u}));
+    CHECK(complaint() == "gnomon: a framebuffer has at most four colour attachments everywhere");
+    CHECK(fake.calls["FramebufferTexture2D"] == 4);
+}
+
+TEST_CASE("a state guard of more than eight texture units or of less than none is a wrong call and keeps eight or none") {
+    test::fake_gl fake("3.3");
+    const auto c = *gl::context::of(fake.table);
+    const auto bound_by_guard_of = [&](int units) {
+        fake.calls.clear();
+        {
+            const gl::state_guard<gl::state_policy::restore> guard(c, units);
+        }
+        return fake.calls["BindSampler"]; // of each unit when it comes and when it goes
+    };
+    CHECK(bound_by_guard_of(0) == 0);
+    CHECK(bound_by_guard_of(8) == 16);
+    CHECK(complaint() == "");
+    const std::string eight = "gnomon: a state guard keeps at most eight texture units";
+    CHECK(bound_by_guard_of(9) == 16);
+    CHECK(complaint() == eight);
+    CHECK(bound_by_guard_of(-1) == 0);
+    CHECK(complaint() == eight);
+}
+
+TEST_CASE("a result of neither a value nor a sentence is a wrong call") {
+    CHECK_FALSE(gl::result<int>(gl::problem{"no memory"}));
+    CHECK(complaint() == "");
+    CHECK_FALSE(gl::result<int>(gl::problem{}));
+    CHECK(complaint() == "gnomon: a result without a value needs a sentence that says why");
 }

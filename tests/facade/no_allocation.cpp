@@ -1,51 +1,15 @@
-// Constructors allocate and nothing else does. This file replaces operator new for its whole program.
+// Constructors allocate and nothing else does.
 #include <gnomon/grid/reference_grid.hpp>
 #include <gnomon/soft_shadow_map.hpp>
+
+#include "../support/allocations.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cstddef>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
-namespace {
-long allocations = 0;
-
-void* counted(std::size_t bytes, std::size_t alignment) {
-    ++allocations;
-    if (void* p = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment)) return p;
-    throw std::bad_alloc();
-}
-} // namespace
-
-void* operator new(std::size_t bytes) { return counted(bytes, alignof(std::max_align_t)); }
-void* operator new[](std::size_t bytes) { return counted(bytes, alignof(std::max_align_t)); }
-void* operator new(std::size_t bytes, std::align_val_t alignment) { return counted(bytes, static_cast<std::size_t>(alignment)); }
-void* operator new[](std::size_t bytes, std::align_val_t alignment) { return counted(bytes, static_cast<std::size_t>(alignment)); }
-// Not declared by clang, which does not call them.
-void operator delete(void*, std::size_t) noexcept;
-void operator delete[](void*, std::size_t) noexcept;
-void operator delete(void*, std::size_t, std::align_val_t) noexcept;
-void operator delete[](void*, std::size_t, std::align_val_t) noexcept;
-
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete[](void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
-void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
-
-namespace {
-/// Allocations made while f runs.
-template <typename F> long allocations_in(F&& f) {
-    const long before = allocations;
-    f();
-    return allocations - before;
-}
-} // namespace
+using test::allocations_in;
 
 TEST_CASE("allocations are counted") {
     CHECK(allocations_in([] { const std::vector<int> v(100); }) == 1);

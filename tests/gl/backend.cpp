@@ -74,6 +74,18 @@ TEST_CASE("whatever GL fails at, the host's image is filtered, and the backend s
                      filters);
 }
 
+TEST_CASE("what a GPU has filtered is not filtered again") {
+    test::fake_gl fake("3.3");
+    const gl::context c = *gl::context::of(fake.table);
+    const gl::backend run(c);
+    const image<rg8> from({40, 30}, rg8::caster(0.5f)), read_back(from.size(), rg8::clear()); // by a GL that draws nothing
+    image<rg8> to = from;
+    gnomon::filter_scratch<rg8, kernel> scratch(40);
+    run.filter_region(from.view(), to.view(), whole(from.size()), scratch);
+    CHECK(run.problem().sentence == "");
+    CHECK(test::differences(to, read_back) == 0);
+}
+
 TEST_CASE("an image is not filtered into itself on a GPU either") {
     test::fake_gl fake("3.3");
     const gl::context c = *gl::context::of(fake.table);

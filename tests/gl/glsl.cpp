@@ -1,5 +1,6 @@
 // Numbers that write GLSL, one expression at a time; texts_receive.cpp runs what the formulas make of them.
 #include <gnomon/gl/glsl.hpp>
+#include <gnomon/gl/glsl_text.hpp>
 
 #include <doctest/doctest.h>
 
@@ -25,6 +26,13 @@ TEST_CASE("of two known numbers the greater is greater, and of equals neither") 
     CHECK((number("v") > number(2)).text() == "v > 2.0");
     CHECK((number("v") < number("w") + number("x")).text() == "v < w + x");
     CHECK_FALSE((number("v") > number(2)).value().has_value());
+}
+
+TEST_CASE("a word after an at sign is replaced wherever it stands") {
+    using gnomon::gl::detail::filled;
+    CHECK(filled("@a and @a", {{"a", "a long text"}}) == "a long text and a long text");
+    CHECK(filled("@a@a", {{"a", "@a"}}) == "@a@a"); // and what replaces it is none any more
+    CHECK(filled("@b or a", {{"a", "x"}, {"b", ""}}) == " or a");
 }
 
 TEST_CASE("a condition is written with the parentheses that it needs, and without what is known") {

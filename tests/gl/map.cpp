@@ -8,11 +8,13 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace {
 namespace gl = gnomon::gl;
@@ -231,6 +233,21 @@ TEST_CASE("more rectangles than fit into one draw take two") {
     b.fake.calls.clear();
     static_cast<void>(map.caster_framebuffer()); // what was forgotten before it was drawn never is
     CHECK(b.fake.calls.empty());
+}
+
+TEST_CASE("a clear draws over the tiles of casters and over no texel beside them") {
+    bench b("3.3");
+    map_of<gnomon::rg8> map({64, 64, 16}, gl::backend(b.context));
+    map.cast({16, 32, 20, 36}, 0.5f); // whose guard band reaches the tiles beside it
+    static_cast<void>(map.caster_framebuffer()); // has drawn them
+    static std::vector<gl::surface> drawn;
+    b.fake.table.BufferSubData = [](unsigned, std::ptrdiff_t, std::ptrdiff_t bytes, const void* data) {
+        drawn.resize(static_cast<std::size_t>(bytes) / sizeof(gl::surface));
+        std::memcpy(drawn.data(), data, static_cast<std::size_t>(bytes));
+    };
+    map.clear();
+    REQUIRE(drawn.size() == 1);
+    CHECK(drawn[0].where == texel_rect{16, 32, 32, 48});
 }
 
 TEST_CASE("a map on a backend that restores leaves all state as it was, at its making and in a frame") {

@@ -5,11 +5,13 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gl = gnomon::gl;
@@ -157,6 +159,25 @@ TEST_CASE("a dirty guard asks nothing of GL, and puts nothing back") {
     }
 }
 
+TEST_CASE("a guard of each policy makes as many calls as it says") {
+    const auto calls_of = [](const char* version, auto&& guarded) {
+        test::fake_gl fake(version);
+        const gl::context c = *gl::context::of(fake.table);
+        fake.order.clear();
+        guarded(c);
+        const auto asked = std::count_if(fake.order.begin(), fake.order.end(), [](const std::string& name) {
+            return name.compare(0, 3, "Get") == 0 || name.compare(0, 2, "Is") == 0;
+        });
+        return std::pair{static_cast<int>(asked), static_cast<int>(fake.order.size())};
+    };
+    const auto dirty = [](const gl::context& c) { const gl::state_guard<gl::state_policy::dirty> guard(c); };
+    const auto restores = [](const gl::context& c) { const gl::state_guard<gl::state_policy::restore> guard(c); };
+    CHECK((calls_of("OpenGL ES 3.0", dirty) == std::pair{0, 33}));
+    CHECK((calls_of("4.5", dirty) == std::pair{0, 54}));
+    CHECK((calls_of("OpenGL ES 3.0", restores) == std::pair{49, 33 + 49 + 52}));
+    CHECK((calls_of("4.5", restores) == std::pair{187, 54 + 187 + 161}));
+}
+
 TEST_CASE("no context is asked for a switch or a pixel store that it has not") {
     const auto listed = [](const char* version, std::vector<std::string> extensions = {}) {
         test::fake_gl fake(version, std::move(extensions));
@@ -277,6 +298,7 @@ TEST_CASE("of a context with two draw buffers and two viewports, a restoring gua
         const gl::state_guard<gl::state_policy::restore> guard(c);
     }
     CHECK(differing(fake, before) == "");
+    CHECK(fake.calls["GetDoublev"] == 0); // each is asked for by its index
 }
 
 TEST_CASE("of a context with more of everything than there is room for, a restoring guard keeps the first") {

@@ -116,10 +116,11 @@ using program = object<detail::program_kind>;
 
 /// A framebuffer that draws into these textures, by name: color attachment i is the i-th. No depth with `depth` = 0.
 /// It reads from the first. The problem: GL calls it incomplete.
+/// \pre at most four textures; those beyond are left out
 [[nodiscard]] inline result<framebuffer> make_framebuffer(const context& c, std::initializer_list<unsigned> colors,
                                                           unsigned depth = 0) {
-    constexpr std::size_t most = 4; // of ES 3.0
-    GNOMON_ASSERT(colors.size() <= most, "gnomon: a framebuffer has at most four colour attachments everywhere");
+    constexpr int most = 4; // of ES 3.0
+    GNOMON_ASSERT(colors.size() <= std::size_t{most}, "gnomon: a framebuffer has at most four colour attachments everywhere");
     c.drop_errors();
     framebuffer made(c);
     if (!made) return detail::made_none("framebuffer");
@@ -130,6 +131,7 @@ using program = object<detail::program_kind>;
     unsigned buffers[most] = {};
     int count = 0;
     for (const unsigned color : colors) {
+        if (count == most) break;
         buffers[count] = enums::color_attachment0 + static_cast<unsigned>(count);
         attach(buffers[count++], color);
     }

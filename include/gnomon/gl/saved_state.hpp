@@ -221,9 +221,9 @@ class saved_raster {
     static constexpr unsigned names[numbers] = {enums::depth_func, enums::depth_writemask, enums::cull_face_mode,
                                                 enums::front_face};
     bool switches_[most] = {};
-    int numbers_[numbers] = {};
     int polygon_modes_[2] = {};
     int clip_[2] = {};
+    int numbers_[numbers] = {};
 };
 
 /// Transform feedback that is active would record our vertices, and forbids another program: it is paused meanwhile.
