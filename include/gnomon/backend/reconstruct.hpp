@@ -5,6 +5,7 @@
 #include <gnomon/receive/receive.hpp>
 #include <gnomon/simd/isa.hpp>
 
+#include <bit>
 #include <concepts>
 
 #define GNOMON_ON on_any
@@ -108,7 +109,9 @@ template <typename Isa> [[nodiscard]] bool lanes_are_there() noexcept {
 /// f.template operator()<Lanes>() with the lanes that are named, or the processor's own. False, and nothing done, if f says so or the
 /// processor has no such lanes.
 template <typename Isa, typename F> bool in_lanes(F&& f) noexcept {
-    if constexpr (std::same_as<Isa, best_isa>)
+    if constexpr (std::endian::native == std::endian::big) // lanes take the first byte of a number for its lowest
+        return false;
+    else if constexpr (std::same_as<Isa, best_isa>)
         return with_lanes(best_lanes(), f);
     else
         return lanes_are_there<Isa>() && f.template operator()<Isa>();
