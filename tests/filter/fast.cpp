@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -53,6 +54,16 @@ image<texel<float32>> summed(const image<texel<float32>>& from, const test::taps
     });
     return to;
 }
+/// A user's, whose total neither divides 256 nor has a part in it.
+struct fifths {
+    static constexpr int radius = 1, total = 5;
+    static constexpr std::array<int, 3> weights{1, 3, 1};
+};
+/// One more than there are eight bits for.
+struct one_too_many {
+    static constexpr int radius = 1, total = 257;
+    static constexpr std::array<int, 3> weights{1, 255, 1};
+};
 } // namespace
 
 static_assert(kernel<fast<gaussian<4>>> && kernel_is_sound<fast<gaussian<4>>>());
@@ -66,6 +77,10 @@ TEST_CASE_TEMPLATE("fast, bytes are filtered by weights of eight bits, and by th
     const auto by_eight_bits = test::dense<eight_bit<gaussian<3>>>(from);
     CHECK(differing(test::dense<fast<gaussian<3>>>(from), by_eight_bits) == 0);
     CHECK(differing(test::dense<gaussian<3>>(from), by_eight_bits) > 0); // there is something to tell
+    CHECK(differing(test::dense<fast<fifths>>(from), test::dense<eight_bit<fifths>>(from)) == 0);
+    CHECK(differing(test::dense<fifths>(from), test::dense<eight_bit<fifths>>(from)) > 0);
+    CHECK(differing(test::dense<fast<one_too_many>>(from), test::dense<eight_bit<one_too_many>>(from)) == 0);
+    CHECK(differing(test::dense<one_too_many>(from), test::dense<eight_bit<one_too_many>>(from)) > 0);
     CHECK(differing(test::dense<fast<box<3>>>(from), test::dense<box<3>>(from)) == 0);
     CHECK(differing(test::dense<fast<binomial<4>>>(from), test::dense<binomial<4>>(from)) == 0);
     CHECK(differing(test::dense<fast<gaussian<32>>>(from), test::dense<eight_bit<gaussian<32>>>(from)) == 0);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace {
@@ -217,6 +218,31 @@ TEST_CASE_TEMPLATE("a region is filtered as the whole map is, nothing outside it
             CHECK(test::differences(to, expected) == 0);
         });
     }
+}
+
+namespace {
+/// A user's channel of so many whole codes.
+template <int Scale> struct codes_to : gnomon::unorm16 {
+    using storage = std::uint32_t;
+    static constexpr float scale = Scale;
+    static constexpr float max_error = 0.5f / scale + 0x1p-25f;
+    [[nodiscard]] static constexpr storage encode(double v) noexcept {
+        return static_cast<storage>(gnomon::saturate(v) * Scale + 0.5);
+    }
+    [[nodiscard]] static constexpr storage store(double code) noexcept { return static_cast<storage>(code + 0.5); }
+    [[nodiscard]] static constexpr float code(storage c) noexcept { return static_cast<float>(c); }
+    [[nodiscard]] static constexpr float decode(storage c) noexcept { return code(c) / scale; }
+};
+} // namespace
+
+TEST_CASE_TEMPLATE("a column of the widest kernel holds its sum of a channel of more than sixteen bits", Channel, codes_to<65536>,
+                   codes_to<131071>) {
+    using texel = gnomon::texel<Channel>;
+    using widest = binomial<8>;
+    static_assert(widest::total == gnomon::kernel_total_limit);
+    const image<texel> from({33, 33}, texel::caster(0.0f));
+    const image<texel> soft = dense<widest>(from);
+    for (int x = 8; x < 25; ++x) CHECK(soft(x, 16) == texel::caster(0.0f)); // uniform as far as the kernel sees
 }
 
 TEST_CASE("images of different sizes share what both have, and an empty one shares nothing") {

@@ -1,6 +1,8 @@
 // Numbers that write GLSL, one expression at a time; texts_receive.cpp runs what the formulas make of them.
 #include <gnomon/gl/glsl.hpp>
 #include <gnomon/gl/glsl_text.hpp>
+#include <gnomon/texel/depth_mask.hpp>
+#include <gnomon/unit.hpp>
 
 #include <doctest/doctest.h>
 
@@ -33,6 +35,12 @@ TEST_CASE("a word after an at sign is replaced wherever it stands") {
     CHECK(filled("@a and @a", {{"a", "a long text"}}) == "a long text and a long text");
     CHECK(filled("@a@a", {{"a", "@a"}}) == "@a@a"); // and what replaces it is none any more
     CHECK(filled("@b or a", {{"a", "x"}, {"b", ""}}) == " or a");
+}
+
+TEST_CASE("the formulas of the library are written down as they stand") {
+    const number e("e"), m("m"), z("z");
+    CHECK(gnomon::saturate(z).text() == "z > 0.0 ? (z < 1.0 ? z : 1.0) : 0.0");
+    CHECK(gnomon::depth_mask::behind(e, m, z).text() == "z < 0.5 ? gnomon_exceeds(m, z, m - e) : gnomon_exceeds(-m, 1.0 - z, -e)");
 }
 
 TEST_CASE("a condition is written with the parentheses that it needs, and without what is known") {

@@ -7,11 +7,13 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -94,6 +96,26 @@ template <typename F> void for_each_target(F&& f) {
     if constexpr (test::is_asked<gnomon::emulated<32>>) f(plain::all<gnomon::emulated<32>>); // the checks pass what is right
 }
 } // namespace
+
+TEST_CASE("arrays round downwards and take what has no whole number of 32 bits to the least") {
+    using lanes = gnomon::emulated<16>;
+    constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
+    const auto floors = [](lanes::floats a) { return std::bit_cast<std::array<std::int32_t, 4>>(lanes::floor32(a)); };
+    CHECK(floors({{-2.5f, -2.0f, 2.5f, 0x1p30f}}) == std::array<std::int32_t, 4>{-3, -2, 2, 1 << 30});
+    CHECK(floors({{-0x1p31f, -3e9f, 0x1p31f, std::numeric_limits<float>::quiet_NaN()}}) ==
+          std::array<std::int32_t, 4>{least, least, least, least});
+}
+
+TEST_CASE("arrays settle every lane and cast into every pair and do nothing beside them") { // which sanitizers see
+    using lanes = gnomon::emulated<16>;
+    const auto settled = std::make_unique<lanes::floats>(lanes::floats{{1.0f, 2.0f, 3.0f, 4.0f}});
+    lanes::settle(*settled);
+    CHECK(std::bit_cast<std::array<std::uint32_t, 4>>(*settled) ==
+          std::array<std::uint32_t, 4>{0x3F800000, 0x40000000, 0x40400000, 0x40800000});
+    std::uint8_t pairs[4] = {};
+    lanes::cast_pairs<gnomon::unorm8>(pairs, 3, {{7.0, 9.0}});
+    CHECK((pairs[0] == 7 && pairs[1] == 255 && pairs[2] == 9 && pairs[3] == 255));
+}
 
 TEST_CASE("operations on whole numbers give the bits of the emulated ones") {
     test::dice roll(411);

@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
@@ -148,6 +149,8 @@ TEST_CASE_TEMPLATE("unorm encode gives the nearest code for every float beside a
     }
     CHECK(wrong.report() == "");
 }
+
+TEST_CASE("a float channel stores no negative zero") { CHECK(std::bit_cast<std::uint32_t>(float32::store(-0.0)) == 0); }
 
 TEST_CASE("float32 encode rounds every midpoint to even and a double beside it to the nearer float") {
     sweep wrong;
