@@ -85,3 +85,16 @@ TEST_CASE("a ratio of sums is rounded down and its mask to nearest - and a mask 
     const std::uint64_t nearly[] = {100 * 1 + 101 * 254, 255 * 255}; // 100.996: down, too
     CHECK(tm8::from_linear(nearly, std::uint64_t{1}) == tm8{{100, 255}});
 }
+
+namespace {
+struct far_when_clear : gnomon::depth_ratio { // a user's
+    static constexpr double clear_depth = 1.0;
+};
+} // namespace
+
+TEST_CASE("sums without a mask are the clear texel of their representation") {
+    using texel = gnomon::texel<unorm8, far_when_clear>;
+    const std::uint64_t nothing[] = {0, 0};
+    CHECK(texel::from_linear(nothing, 1) == texel::clear());
+    CHECK(texel::clear() == texel{{255, 0}});
+}
