@@ -10,6 +10,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -45,8 +46,8 @@ struct checks_of {
     int (*half16)(const std::uint16_t*, const double*);
     int (*float32)(const float*, const double*);
     int (*comparisons)(const double*, const double*);
-    int (*casts8)(const std::uint8_t*, unsigned, const double*);
-    int (*casts16)(const std::uint16_t*, unsigned, const double*);
+    int (*casts8)(const std::uint8_t*, unsigned, const double*, std::uint8_t*);
+    int (*casts16)(const std::uint16_t*, unsigned, const double*, std::uint16_t*);
 };
 } // namespace
 
@@ -352,8 +353,12 @@ TEST_CASE("casters go onto pairs as the emulated lanes cast them: nearer ones, o
             }
             for (double& each : codes8) each = (few ? roll(0, 3) : roll(0, 255)) + 0.999 * roll(0, 1);
             for (double& each : codes16) each = (few ? roll(0, 3) : roll(0, 65535)) + 0.999 * roll(0, 1);
-            const auto where = static_cast<unsigned>(roll.one_in(3) ? 255 : roll(0, 255));
-            wrong += target.casts8(bytes, where, codes8) + target.casts16(words, where, codes16);
+            const unsigned where = static_cast<unsigned>(roll.one_in(3) ? 255 : roll(0, 255)) & ((1u << target.double_lanes) - 1);
+            const auto asked = 2 * static_cast<std::size_t>(std::bit_width(where));
+            const auto asked_bytes = std::make_unique<std::uint8_t[]>(asked);
+            const auto asked_words = std::make_unique<std::uint16_t[]>(asked);
+            wrong +=
+                target.casts8(bytes, where, codes8, asked_bytes.get()) + target.casts16(words, where, codes16, asked_words.get());
         }
         CHECK(wrong == 0);
     });
