@@ -123,7 +123,8 @@ template <typename Isa, typename F> bool in_lanes(F&& f) noexcept {
 /// reconstruct<avx2>(...). Rows of any stride, in place too, as in receive/receive.hpp.
 ///
 /// In lanes go depth_mask pairs and those with a contribution: unorm8 and unorm16 with depths and intensities of any kind; half and
-/// float with float intensities. Far bounds, the other representations and channels of a user's go by the scalar loop.
+/// float with float intensities. Far bounds, the other representations and channels of a user's go by the scalar loop, and all on a
+/// big-endian processor.
 /// \pre the processor has the lanes that are named: ask best_lanes(). Without asserts the scalar loop does it if it has not.
 template <typename Isa = best_isa, texel_row Row, depth_row Depths, intensity_row Intensities>
 void reconstruct(const Row& texels, const Depths& z, Intensities&& intensity, const rule& r = {}) noexcept {
