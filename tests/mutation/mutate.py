@@ -173,7 +173,7 @@ def ask(tree, test, overlay, work, options=(), peek=False):
     A peek compiles as quickly as can be and runs for a second: that finds most mutants, and says nothing about the rest."""
     program, code = work / "program", work / "code.o"
     compiler, linker = tree.flavour("-O0" if peek else test.level, *test.options, *options)
-    allowed = 600 if options else 120
+    allowed = 600 if options else 300
     built = limited(allowed, [*compiler, f"-fmacro-prefix-map={overlay}={tree.include}", f"-I{overlay}", f"-I{tree.include}", "-c", test.path, "-o", code])
     if built.returncode == 0:
         if test.code == code_of(work) and not options and not peek:
