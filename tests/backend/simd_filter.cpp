@@ -436,7 +436,7 @@ TEST_CASE("lanes take less than 48 kB of the stack, whatever kernel and texel") 
         bytes_of_stack<gnomon::fast<gaussian<256>>, gnomon::rgba32f>(), bytes_of_stack<box<256>, gnomon::rgba8>(),
         bytes_of_stack<box<109>, gnomon::rgba16>(), bytes_of_stack<box<1>, gnomon::rgba16>());
     CHECK(most < 48 * 1024);
-    CHECK(most > 40 * 1024);
+    CHECK(most > 38 * 1024); // pointers may be of 32 bits
 }
 
 TEST_CASE_TEMPLATE("what lanes do not know is left to the oracle: ratios of wide sums, a channel of a user's, radii beyond 256",
