@@ -352,6 +352,17 @@ TEST_CASE_TEMPLATE("lanes say that they filtered, and leave nothing to be filter
     });
 }
 
+TEST_CASE_TEMPLATE("a map of any of the four channels is filtered in lanes", Channel, gnomon::unorm8, gnomon::unorm16,
+                   gnomon::half16, gnomon::float32) {
+    using texel = gnomon::texel<Channel>;
+    const image<texel> map({70, 9}, texel::clear());
+    image<texel> made(map.size());
+    filter_scratch<texel, gnomon::fast<binomial<1>>> scratch(70);
+    test::counted_lanes::forget();
+    simd<test::counted_lanes>{}.filter_region(map.view(), made.view(), whole(map.size()), scratch);
+    CHECK(test::counted_lanes::loads > 0);
+}
+
 TEST_CASE("a box that lanes filter leaves its scratch alone, for nothing is filtered again") {
     const image<rg8> map({70, 9}, rg8::caster(0.5f));
     image<rg8> made(map.size());

@@ -46,8 +46,7 @@ class bit_grid {
         });
     }
 
-    int columns_ = 0;
-    int rows_ = 0;
+    int columns_ = 0, rows_ = 0;
     std::vector<bit_word> words_;
     std::vector<bit_word> occupied_;
 };
