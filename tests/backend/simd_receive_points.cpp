@@ -265,6 +265,16 @@ TEST_CASE("receivers anywhere: the shortest span counts in lanes too") {
     }
 }
 
+TEST_CASE("of no receivers, which have no memory, lanes name none") { // the undefined behaviour sanitizer watches
+    const image<rg8> map({4, 4}, rg8::caster(0.5f));
+    const strided_span<const float> none;
+    for_each_isa([&]<typename Isa>() {
+        CHECK(gnomon::detail::in_lanes<Isa>([&]<typename Lanes>() {
+            return gnomon::detail::receive_points_on<Lanes, rg8, float, float>(map.view(), none, none, none, {}, {});
+        }));
+    });
+}
+
 TEST_CASE("lanes read nothing beside the map: its memory ends where its last texel does") {
     dice roll(434);
     for (const extent size : {extent{2, 2}, {5, 3}, {64, 2}, {2, 9}}) { // the address sanitizer watches; so do the bits, without it
