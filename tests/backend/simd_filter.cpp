@@ -574,7 +574,8 @@ TEST_CASE_TEMPLATE("what lies above and below a tall map is clear to lanes, of w
 TEST_CASE("without room for a texel lanes do nothing, and say so") {
     const image<rg8> from({40, 5}, rg8::caster(0.5f));
     image<rg8> to({40, 5}, rg8::clear());
-    CHECK_FALSE(gnomon::on_any::filter_rows<emulated<16>, binomial<1>>(from.view(), to.view(), whole(to.size()), {}));
+    CHECK_FALSE(gnomon::on_any::filter<emulated<16>, binomial<1>>(from.view(), to.view(), whole(to.size()), {}));
+    CHECK_FALSE(gnomon::on_any::filter<emulated<16>, box<1>>(from.view(), to.view(), whole(to.size()), {}));
     CHECK(to(20, 2) == rg8::clear());
 }
 
