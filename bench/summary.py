@@ -42,7 +42,7 @@ def filters(path):
                         ratios[f"filter.{of}.k{taps}.of_floor{suffix}"] = floor(of, size) / ours
                         if theirs:
                             ratios[f"filter.{of}.k{taps}.vs_opencv{suffix}"] = theirs / ours
-                        if work := time.get(f"{what.replace('fast', 'work')}/{of}/k{taps}/{size}"):
+                        if what.startswith("fast") and (work := time.get(f"work{what.removeprefix('fast')}/{of}/k{taps}/{size}")):
                             ratios[f"filter.{of}.k{taps}.of_work{suffix}"] = work / ours
             if logs:
                 ratios[f"filter.{of}.geomean.vs_opencv{suffix}"] = math.exp(sum(logs) / len(logs))

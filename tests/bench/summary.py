@@ -1,0 +1,73 @@
+"""summary.py SUMMARY: what bench/summary.py makes of times that are known. Each ratio was worked out by hand from the times above it."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+TIMES = {
+    "filter": {
+        # lanes of 512 bits and of 256, exact and fast; of two ways OpenCV has and two floors there are the better counts
+        "fast/u8x2/k9/1024": 2, "fast.avx2/u8x2/k9/1024": 4, "exact/u8x2/k9/1024": 16, "exact.avx2/u8x2/k9/1024": 32,
+        "blur/u8x2/k9/1024": 12, "sep/u8x2/k9/1024": 8, "copy/u8x2/k0/1024": 1, "stream/u8x2/k0/1024": 0.5,
+        "work/u8x2/k9/1024": 1.5, "work.avx2/u8x2/k9/1024": 2,
+        "fast/u8x2/k3/256": 2, "blur/u8x2/k3/256": 2, "sep/u8x2/k3/256": 3,  # of the mean alone
+        "fast/u8x2/k33/1024": 5, "blur/u8x2/k33/1024": 45, "sep/u8x2/k33/1024": 50,  # not of it
+        "fast/f32x2/k5/1024": 8, "copy/f32x2/k0/1024": 6, "stream/f32x2/k0/1024": 7,  # nobody measured OpenCV
+        "box/u8x2/k3/1024": 10, "box/u8x2/k65/1024": 12, "boxcv/u8x2/k65/1024": 30, "box.avx2/u8x2/k3/1024": 10,
+    },
+    "receive": {
+        "simd/u8x2.z16/128": 4, "simd.avx2/u8x2.z16/128": 5, "copy/u8x2.z16/128": 3, "scalar/u8x2.z16/128": 40,
+        "simd/u8x2.z16/4096": 10, "copy/u8x2.z16/4096": 9,
+        "simd/f32x2.f32/128": 2, "opencv/f32x2.f32/128": 24, "simd/f32x2.f32/1024": 5, "opencv/f32x2.f32/1024": 20,
+        "points/u8x2.f32/1024": 10, "gather/u8x2.f32/1024": 7, "points.avx2/u8x2.f32/128": 10, "gather.avx2/u8x2.f32/128": 6,
+    },
+    "sparse": {"dense/u8x2/k9/1024": 100, "10pct/u8x2/k9/1024": 15, "50pct/u8x2/k9/1024": 90, "empty/u8x2/k9/1024": 0.5},
+    "grid": {"merge32": 3000},
+    "pipeline": {"copy/u8x2/k9/1024": 2, "stream/u8x2/k9/1024": 1, "receive.copy/u8x2/k9/1024": 3, "both/u8x2/k9/1024": 10},
+    "threads": {f"{what}/{count}/u8x2/k9/1024/real_time": time for what, times in
+                {"filter": (10, 5), "sparse": (9, 6), "receive": (8, 5)}.items() for count, time in zip((1, 2), times)},
+    "flags": {"o2_plain/a": 10, "o3_native/a": 10, "o2_plain/b": 11, "o3_native/b": 10, "o2_plain/c": 15, "o3_native/c": 10,
+              "asked/a/64": 21, "unasked/a/64": 20},
+    "raster": {"scalar/sun/e2/1024": 8, "simd/sun/e2/1024": 4, "scalar/lamp/e2/1024": 16, "simd/lamp/e2/1024": 2},
+}
+COUNTERS = {"10pct/u8x2/k9/1024": {"area": 0.125}, "50pct/u8x2/k9/1024": {"area": 0.6}, "merge32": {"calls": 10},
+            "simd/sun/e2/1024": {"items_per_second": 7e6}}
+EXPECTED = {
+    "filter.u8x2.k9.vs_opencv": 4, "filter.u8x2.k9.vs_opencv.avx2": 2, "filter.u8x2.k9.vs_opencv.exact": 0.5,
+    "filter.u8x2.k9.vs_opencv.exact.avx2": 0.25, "filter.u8x2.k9.of_floor": 0.25, "filter.u8x2.k9.of_floor.avx2": 0.125,
+    "filter.u8x2.k9.of_floor.exact": 0.0312, "filter.u8x2.k9.of_floor.exact.avx2": 0.0156,
+    "filter.u8x2.k9.of_work": 0.75, "filter.u8x2.k9.of_work.avx2": 0.5,
+    "filter.u8x2.geomean.vs_opencv": 2, "filter.u8x2.geomean.vs_opencv.avx2": 2, "filter.u8x2.geomean.vs_opencv.exact": 0.5,
+    "filter.u8x2.geomean.vs_opencv.exact.avx2": 0.25, "filter.u8x2.k33.vs_opencv": 9, "filter.u8x2.k33.of_floor": 0.1,
+    "filter.f32x2.k5.of_floor": 0.75, "filter.box.u8x2.r32.over_r1": 1.2, "filter.box.u8x2.r32.vs_opencv": 2.5,
+    "receive.u8x2.z16.of_copy_l2": 0.75, "receive.u8x2.z16.of_copy_l2.avx2": 0.6, "receive.u8x2.z16.vs_scalar_l2": 10,
+    "receive.u8x2.z16.vs_scalar_l2.avx2": 8, "receive.u8x2.z16.of_copy_dram": 0.9, "receive.f32x2.vs_opencv": 12,
+    "receive.f32x2.vs_opencv_l3": 4, "receive.bilinear.u8x2.of_gather": 0.7, "receive.bilinear.u8x2.of_gather_l2.avx2": 0.6,
+    "sparse.u8x2.10pct.over_ideal": 1.2, "sparse.u8x2.50pct.over_ideal": 1.5, "sparse.empty.of_dense": 0.005,
+    "grid.merge32.ns": 300, "pipeline.u8x2.blur_receive.over_sum_of_floors": 2.5,
+    "threads2.scaling": 2, "threads2.sparse.scaling": 1.5, "threads2.receive.scaling": 1.6,
+    "flags.o2_plain.over_o3_native": 1.1, "flags.o2_plain.over_o3_native.worst": 1.5, "flags.asked.over_unasked.a.64": 1.05,
+    "raster.sun.e2.lanes_over_scalar": 2, "raster.lamp.e2.lanes_over_scalar": 8, "raster.lanes_over_scalar": 4,
+    "raster.mtris_per_s": 7,
+}
+
+
+def main(summary):
+    with tempfile.TemporaryDirectory() as folder:
+        for bench, times in TIMES.items():
+            runs = [{"run_name": name, "aggregate_name": aggregate, "cpu_time": time * scale, "real_time": time * scale,
+                     "items_per_second": 0, **COUNTERS.get(name, {})}
+                    for name, time in times.items() for aggregate, scale in (("mean", 3), ("median", 1), ("stddev", 0.1))]
+            pathlib.Path(folder, f"{bench}.json").write_text(json.dumps({"benchmarks": runs}))
+        written = pathlib.Path(folder, "written.json")
+        subprocess.run([sys.executable, "-B", summary, folder, "--summary", written], check=True, stdout=subprocess.DEVNULL)
+        made = json.loads(written.read_text())
+    wrong = [f"{name}: {made.get(name, 'not there')}, not {EXPECTED.get(name, 'there')}"
+             for name in sorted(made.keys() | EXPECTED.keys()) if made.get(name) != EXPECTED.get(name)]
+    print("\n".join(wrong) or f"{len(made)} ratios")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
