@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 namespace {
@@ -37,6 +38,7 @@ using byte_row_of_floats = row_of<rg8, float, std::uint8_t>;
 using word_row = row_of<rg16, std::uint16_t, std::uint16_t>;
 using float_row = row_of<gnomon::rg32f, float, float>;
 using float_row_of_codes = row_of<gnomon::rg32f, std::uint16_t, float>;
+using word_row_to_bytes = row_of<rg16, std::uint16_t, std::uint8_t>;
 using words_to_bytes = row_of<rg16, float, std::uint8_t>;
 using bytes_to_words = row_of<rg8, std::uint16_t, std::uint16_t>;
 using translucent_words = row_of<gnomon::rga16, std::uint16_t, float>;
@@ -109,6 +111,7 @@ TYPE_TO_STRING_AS("bytes, float depths", byte_row_of_floats);
 TYPE_TO_STRING_AS("16 bits, depths of 16 bits", word_row);
 TYPE_TO_STRING_AS("floats", float_row);
 TYPE_TO_STRING_AS("floats, depths of 16 bits", float_row_of_codes);
+TYPE_TO_STRING_AS("16 bits, depths of 16 bits, to bytes", word_row_to_bytes);
 TYPE_TO_STRING_AS("16 bits to bytes", words_to_bytes);
 TYPE_TO_STRING_AS("bytes to 16 bits", bytes_to_words);
 TYPE_TO_STRING_AS("translucent 16 bits to floats", translucent_words);
@@ -118,8 +121,8 @@ TYPE_TO_STRING_AS("far bounds", bounded_row);
 TYPE_TO_STRING_AS("translucent", translucent_row);
 
 TEST_CASE_TEMPLATE("lanes decide on codes as the oracle does: every width to 140, any stride, alignment and rule", Row, byte_row,
-                   byte_row_of_floats, word_row, float_row, float_row_of_codes, half_row, words_to_bytes, bytes_to_words,
-                   translucent_words, half_row_to_floats, bounded_row, translucent_row) {
+                   byte_row_of_floats, word_row, word_row_to_bytes, float_row, float_row_of_codes, half_row, words_to_bytes,
+                   bytes_to_words, translucent_words, half_row_to_floats, bounded_row, translucent_row) {
     using Texel = typename Row::texel;
     using Depth = typename Row::depth;
     using Intensity = typename Row::intensity;
@@ -168,19 +171,23 @@ TEST_CASE("lanes decide every pair of bytes as the oracle does, at the codes whe
     }
 }
 
-TEST_CASE("a pair of bytes is decided as the oracle does where its shadow begins, alone among texels of nothing, in any lane") {
+TEST_CASE_TEMPLATE("a pair is decided as the oracle does where its shadow begins, alone among texels of nothing, in any lane", Row,
+                   byte_row, word_row, word_row_to_bytes) {
+    using Texel = typename Row::texel;
+    using storage = typename Texel::storage;
+    constexpr int last = std::numeric_limits<storage>::max();
     constexpr int apart = 64; // no two in the registers that are decided together
     dice roll(437);
     for (const rule& r : rules()) {
-        std::vector<rg8> texels(5000 * apart, rg8::clear());
+        std::vector<Texel> texels(5000 * apart, Texel::clear());
         std::vector<std::uint16_t> z(texels.size(), 30000);
         for (std::size_t first = 0; first < texels.size(); first += apart) {
-            const rg8 t{{static_cast<std::uint8_t>(roll(0, 255)), static_cast<std::uint8_t>(roll(1, 255))}};
+            const Texel t{{static_cast<storage>(roll(0, last)), static_cast<storage>(roll(1, last))}};
             const std::size_t at = first + static_cast<std::size_t>(roll(0, apart - 1));
             texels[at] = t;
-            z[at] = nearest_code(last_lit_code<std::uint8_t>(t, r) + roll(-1, 2));
+            z[at] = nearest_code(last_lit_code<float>(t, r) + roll(-1, 2));
         }
-        check_lanes<std::uint8_t>(texels, z, r);
+        check_lanes<typename Row::intensity>(texels, z, r);
     }
 }
 
@@ -200,9 +207,71 @@ TEST_CASE("of the default rule the quick way tells, but where a shadow begins") 
     CHECK_FALSE(tells());
 }
 
+TEST_CASE_TEMPLATE("lanes decide pairs of words as the oracle does, of the least and greatest codes and between them", Row,
+                   word_row, word_row_to_bytes) {
+    constexpr int codes[] = {0,     1,     2,     3,     4,     127,   128,   129,   255,   256,  257,
+                             32766, 32767, 32768, 32769, 65279, 65406, 65408, 65533, 65534, 65535};
+    for (const rule& r : rules()) {
+        std::vector<rg16> texels;
+        std::vector<std::uint16_t> z;
+        for (const int mask : codes)
+            for (const int depth : codes) {
+                const rg16 t{{static_cast<std::uint16_t>(depth), static_cast<std::uint16_t>(mask)}};
+                const int lit = last_lit_code<float>(t, r);
+                for (const int code : {0, 1, lit - 2, lit - 1, lit, lit + 1, lit + 2, lit + 3, 32768, 65534, 65535}) {
+                    texels.insert(texels.end(), 32, t); // of one register, so that no neighbour is unsure in its place
+                    z.insert(z.end(), 32, nearest_code(code));
+                }
+            }
+        check_lanes<typename Row::intensity>(texels, z, r);
+    }
+}
+
+namespace {
+/// Does the quick way tell of registers of these pairs at these depths?
+template <typename Intensity> bool told_of_words(const rg16& t, int depth, const rule& r, int expected) {
+    using by = gnomon::on_any::word_decision<gnomon::emulated<16>, rg16, Intensity>;
+    std::array<rg16, by::step> texels;
+    std::array<std::uint16_t, by::step> depths;
+    std::array<Intensity, by::step> made;
+    texels.fill(t);
+    depths.fill(static_cast<std::uint16_t>(depth));
+    made.fill(77);
+    const bool told = by::quick(by::of(r), texels[0].stored, depths.data(), made.data());
+    for (const Intensity each : made) CHECK(each == (told ? expected : 77));
+    return told;
+}
+} // namespace
+
+TEST_CASE_TEMPLATE("of words the quick way tells what is surely lit or shadowed, for one rounding towards light and for two",
+                   Intensity, std::uint8_t, std::uint16_t) {
+    constexpr int all = std::numeric_limits<Intensity>::max();
+    for (const int k : {1, 2}) {
+        const rule r{.caster = {.roundings = k, .caster_is_code = true}}; // moves no depth
+        CAPTURE(k);
+        // M = 65535: the high half of M Z is Z - 1, so that Z - 1 is compared with 65535 - E + k.
+        for (const int depth : {1, 1000, 40000, 65535}) {
+            const rg16 t{{static_cast<std::uint16_t>(depth), 65535}};
+            const int least = 65535 - depth + k; // that surely is in shadow
+            if (least + 1 <= 65535) CHECK(told_of_words<Intensity>(t, least + 1, r, all));
+            if (least <= 65535) CHECK_FALSE(told_of_words<Intensity>(t, least, r, 0));
+            if (least <= 65535) CHECK_FALSE(told_of_words<Intensity>(t, least - 1, r, 0));
+            if (least >= 3) CHECK(told_of_words<Intensity>(t, least - 2, r, 0));
+        }
+        for (const int depth : {0, 1, 30000, 65535}) CHECK(told_of_words<Intensity>(rg16::clear(), depth, r, 0));
+        CHECK_FALSE(told_of_words<Intensity>(rg16{{500, 100}}, 100, r, 0)); // no caster has such a pair
+    }
+    const auto tries = [](const gnomon::bias& b) {
+        return gnomon::on_any::word_decision<gnomon::emulated<16>, rg16, Intensity>::of({.caster = b}).asked_for_by_filters;
+    };
+    CHECK((tries({}) && tries({.roundings = 2}) && tries({.depth = 0.125f})));
+    CHECK_FALSE((tries({.roundings = 0}) || tries({.roundings = 3}) || tries({.depth = -0.125f}) || tries(gnomon::unbiased) ||
+                 tries(gnomon::towards_shadow)));
+}
+
 TEST_CASE_TEMPLATE(
     "lanes decide pairs of 16 bits, floats and halves as the oracle does, at the codes where a shadow begins and beside them", Row,
-    word_row, bytes_to_words, float_row_of_codes, half_row_to_floats, translucent_words) {
+    word_row, word_row_to_bytes, bytes_to_words, float_row_of_codes, half_row_to_floats, translucent_words) {
     using Texel = typename Row::texel;
     dice roll(422);
     for (const rule& r : rules()) {

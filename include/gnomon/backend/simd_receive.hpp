@@ -18,10 +18,13 @@ namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 template <texel_format Texel>
 inline constexpr bool decidable_pairs = !Texel::effects.far_bound && std::same_as<typename Texel::representation_type, depth_mask>;
 
-/// Pairs of two bytes.
+/// Pairs of two bytes, and of two words of 16 bits.
 template <texel_format Texel>
 inline constexpr bool byte_pairs =
     decidable_pairs<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, unorm8>;
+template <texel_format Texel>
+inline constexpr bool word_pairs =
+    decidable_pairs<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, unorm16>;
 
 /// One register of receivers at a time. A receiver is shadowed iff e > m (1-z), see receive/decide.hpp: of a biased pair and depth, the
 /// sign of a product and a sum, and exact wherever `decided` says that it is. What is left goes by the scalar loop. With float depths
@@ -230,16 +233,96 @@ template <typename Isa, texel_format Texel> struct byte_decision {
     }
 };
 
+/// Pairs of 16 bits, depths of 16 bits, results in codes: a register of results at a time, in whole numbers of 16 bits.
+///
+/// With k roundings towards the light, and z already moved, a receiver is shadowed iff (M + k/2) Z > 65535 F, F = M - E + k, as above.
+/// Let h be the high half of M Z. For k of 1 or 2, and E <= M,
+///     h >= F        M Z >= 65536 F > 65535 F     shadowed
+///     h <= F - 3    (M + k/2) Z <= 65536 h + 2 * 65535 <= 65536 F - 65538 <= 65535 F     lit
+/// What is left, h of F-1 or F-2, is unsure; so is what is not shadowed where E > M. The other decision sees to such a register, and to
+/// any other rule.
+template <typename Isa, texel_format Texel, typename Intensity> struct word_decision {
+    using ints = typename Isa::ints;
+    using any_decision = decision<Isa, Texel, std::uint16_t, Intensity>;
+    static constexpr int step = Isa::bytes / static_cast<int>(sizeof(Intensity));
+    static constexpr int at_once = Isa::bytes / 2; ///< 16-bit numbers in a register
+
+    any_decision any;
+    ints nearer;               ///< codes by which z is moved
+    ints fewer;                ///< k - 1
+    bool asked_for_by_filters; ///< k is 1 or 2, towards light, and z not moved away
+
+    [[nodiscard]] static word_decision of(const rule& r) noexcept {
+        const int codes = codes_towards_light<Texel>(r.caster), k = r.caster.roundings;
+        const bool quick = r.caster.towards == bias_towards::light && codes >= 0 && (k == 1 || k == 2);
+        return {any_decision::of(r), words(quick ? codes : 0), words(quick ? k - 1 : 0), quick};
+    }
+
+    GNOMON_LANES ints words(int n) noexcept { return Isa::repeat32(static_cast<std::uint32_t>(n) * 0x10001u); }
+    /// As the result is stored: a code of 16 bits itself, or the nearest of 8 bits, floor(t / 257) where t is M + 128 or, if that is
+    /// less, 65535; and that is the high half of t - floor(t / 256), for every t.
+    GNOMON_LANES ints stored(const ints& mask) noexcept {
+        if constexpr (sizeof(Intensity) == 2) {
+            return mask;
+        } else {
+            const ints ones = Isa::repeat32(0xFFFFFFFF);
+            const ints t = Isa::exclusive_or(Isa::subtract_to_zero16(Isa::exclusive_or(mask, ones), words(128)), ones);
+            return Isa::template shift_right16<8>(Isa::subtract16(t, Isa::template shift_right16<8>(t)));
+        }
+    }
+    /// The shadows of a register of receivers. False if it does not tell. A mask less than two codes counts as two, so that clear
+    /// texels, of which most maps are full, are surely lit; and no mask of one code is surely anything else.
+    GNOMON_LANES bool shade(const word_decision& by, const std::uint16_t* texels, const std::uint16_t* depths,
+                            ints& shades) noexcept {
+        const ints first = Isa::load(texels), second = Isa::load(texels + at_once), two = words(2);
+        const ints even = Isa::even_lanes(first, second), odd = Isa::odd_lanes(first, second);
+        const ints depth = Isa::even_words(even, odd), mask = Isa::odd_words(even, odd);
+        const ints z = Isa::subtract_to_zero16(Isa::load(depths), by.nearer);
+        const ints high = Isa::subtract_to_zero16(Isa::multiply_high16(mask, z), by.fewer);                    // h - (k-1)
+        const ints last = Isa::subtract_to_zero16(Isa::add16(Isa::subtract_to_zero16(mask, two), two), depth); // F - k
+        shades = Isa::both(stored(mask), Isa::greater16(high, last));
+        return !Isa::any_equal16(high, last, high, Isa::subtract16(last, words(1)));
+    }
+    GNOMON_LANES bool quick(const word_decision& by, const std::uint16_t* texels, const std::uint16_t* depths,
+                            Intensity* to) noexcept {
+        ints shades;
+        if (!shade(by, texels, depths, shades)) return false;
+        if constexpr (sizeof(Intensity) == 1) {
+            ints more;
+            if (!shade(by, texels + 2 * at_once, depths + at_once, more)) return false;
+            shades = Isa::narrow16(shades, more);
+        }
+        Isa::store(to, shades);
+        return true;
+    }
+    static void slow(const any_decision& by, const Texel* texels, const std::uint16_t* depths, Intensity* to) noexcept {
+        any_decision::rows(by, texels, depths, to, step);
+    }
+    GNOMON_LANES_VOID void rows(const word_decision& by, const Texel* pairs, const std::uint16_t* depths, Intensity* to,
+                                int count) noexcept {
+        const bool try_quick = by.asked_for_by_filters;
+        for (int i = 0; i < count; i += step)
+            if (!try_quick || !quick(by, pairs[i].stored, depths + i, to + i)) slow(by.any, pairs + i, depths + i, to + i);
+    }
+};
+
 /// What lanes decide: all of it but intensities in codes of half and float texels.
 template <texel_format Texel, typename Depth, typename Intensity>
 inline constexpr bool decided_in_lanes =
     decidable_pairs<Texel> && (Texel::channel_type::whole_codes || (Texel::channels == 2 && std::same_as<Intensity, float>));
 
 /// And what decides.
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity> consteval auto choose_decision() {
+    constexpr bool codes = std::same_as<Depth, std::uint16_t>;
+    if constexpr (byte_pairs<Texel> && codes && std::same_as<Intensity, std::uint8_t>)
+        return std::type_identity<byte_decision<Isa, Texel>>{};
+    else if constexpr (word_pairs<Texel> && codes && !std::same_as<Intensity, float>)
+        return std::type_identity<word_decision<Isa, Texel, Intensity>>{};
+    else
+        return std::type_identity<decision<Isa, Texel, Depth, Intensity>>{};
+}
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
-using decision_for =
-    std::conditional_t<byte_pairs<Texel> && std::same_as<Depth, std::uint16_t> && std::same_as<Intensity, std::uint8_t>,
-                       byte_decision<Isa, Texel>, decision<Isa, Texel, Depth, Intensity>>;
+using decision_for = typename decltype(choose_decision<Isa, Texel, Depth, Intensity>())::type;
 
 /// Receivers one to one on texels. Spans of any stride; what is not side by side, and the last few, go through a register's worth of
 /// memory.
