@@ -134,7 +134,8 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         if constexpr (std::same_as<Depth, std::uint16_t>) {
             if (!decided_sums(by, e, m, there, depths, shadowed)) return false;
         } else if constexpr (whole_codes) {
-            shadowed = Isa::both(decided_codes(by, e, m, depths), there);
+            shadowed = decided_codes(by, e, m, depths);
+            if constexpr (Texel::effects.translucency) shadowed = Isa::both(shadowed, there); // or there is nothing to store
         } else {
             if (!decided_floats(by, e, m, there, depths, shadowed)) return false;
         }
