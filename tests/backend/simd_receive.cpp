@@ -198,6 +198,28 @@ TEST_CASE("each register of receivers is answered once, by lanes") {
     CHECK(std::exchange(answers, 0) == 64 / 4);
 }
 
+namespace {
+template <typename Texel, typename Depth, typename Intensity>
+using chosen = gnomon::on_any::decision_for<gnomon::emulated<16>, Texel, Depth, Intensity>;
+} // namespace
+
+TEST_CASE(
+    "pairs of codes against depths and intensities in codes are decided in whole numbers, a register of words by three loads") {
+    using gnomon::rg16, gnomon::rga16, gnomon::on_any::word_decision;
+    using code = std::uint16_t;
+    using byte = std::uint8_t;
+    static_assert(std::same_as<chosen<rg8, code, byte>, gnomon::on_any::byte_decision<gnomon::emulated<16>, rg8>>);
+    static_assert(std::same_as<chosen<rg16, code, code>, word_decision<gnomon::emulated<16>, rg16, code>>);
+    static_assert(std::same_as<chosen<rg16, code, byte>, word_decision<gnomon::emulated<16>, rg16, byte>>);
+    static_assert(std::same_as<chosen<rga16, code, code>, gnomon::on_any::decision<gnomon::emulated<16>, rga16, code, code>>);
+    const gnomon::image<rg16> map({64, 1}, rg16::caster(0.5f));
+    const std::vector<code> z(64, 0xC000);
+    std::vector<code> made(64);
+    test::counted_lanes::forget();
+    gnomon::receive(simd<test::counted_lanes>{}, map.view().row_span(0), z, made);
+    CHECK(test::counted_lanes::loads == 64 / 8 * 3);
+}
+
 #if GNOMON_X86
 TEST_CASE("simd<> goes by the lanes of the processor's level, and every level below is there to be chosen") {
     for (const gnomon::cpu_level level : {gnomon::cpu_level::sse2, gnomon::cpu_level::avx2, gnomon::cpu_level::avx512}) {

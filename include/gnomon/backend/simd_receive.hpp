@@ -256,10 +256,10 @@ template <typename Isa, texel_format Texel, typename Intensity> struct word_deci
     [[nodiscard]] static word_decision of(const rule& r) noexcept {
         const int codes = codes_towards_light<Texel>(r.caster), k = r.caster.roundings;
         const bool quick = r.caster.towards == bias_towards::light && codes >= 0 && (k == 1 || k == 2);
-        return {any_decision::of(r), words(quick ? codes : 0), words(quick ? k - 1 : 0), quick};
+        return {any_decision::of(r), words(codes), words(k - 1), quick};
     }
 
-    GNOMON_LANES ints words(int n) noexcept { return Isa::repeat32(static_cast<std::uint32_t>(n) * 0x10001u); }
+    GNOMON_LANES ints words(int n) noexcept { return Isa::repeat32(std::uint32_t{static_cast<std::uint16_t>(n)} * 0x10001u); }
     /// As the result is stored: a code of 16 bits itself, or the nearest of 8 bits, floor(t / 257) where t is M + 128 or, if that is
     /// less, 65535; and that is the high half of t - floor(t / 256), for every t.
     GNOMON_LANES ints stored(const ints& mask) noexcept {
