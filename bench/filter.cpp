@@ -158,11 +158,13 @@ template <typename Texel> void add_format() {
         const auto add_avx2 = [size](const char* what) {
             add_work<avx2, Texel>(what, size, floats ? with_avx2::sums<avx2> : with_avx2::products<avx2>);
         };
-        if (best_lanes() >= cpu_level::avx512)
-            add_work<avx512, Texel>("work", size, floats ? with_avx512::sums<avx512> : with_avx512::products<avx512>);
-        else if (best_lanes() >= cpu_level::avx2)
-            add_avx2("work");
-        if (best_lanes() >= cpu_level::avx2) add_avx2("work.avx2");
+        if (best_lanes() >= cpu_level::avx2) {
+            add_avx2("work.avx2");
+            if (best_lanes() >= cpu_level::avx512)
+                add_work<avx512, Texel>("work", size, floats ? with_avx512::sums<avx512> : with_avx512::products<avx512>);
+            else
+                add_avx2("work");
+        }
 #endif
         add_all<gaussian<1>, Texel>(size);
         add_all<gaussian<2>, Texel>(size);

@@ -217,7 +217,12 @@ TEST_CASE(
     std::vector<code> made(64);
     test::counted_lanes::forget();
     gnomon::receive(simd<test::counted_lanes>{}, map.view().row_span(0), z, made);
+    CHECK(std::exchange(test::counted_lanes::loads, 0) == 64 / 8 * 3);
+    CHECK(made == std::vector<code>(64, 65535));
+    std::vector<byte> bytes(64);
+    gnomon::receive(simd<test::counted_lanes>{}, map.view().row_span(0), z, bytes);
     CHECK(test::counted_lanes::loads == 64 / 8 * 3);
+    CHECK(bytes == std::vector<byte>(64, 255));
 }
 
 #if GNOMON_X86

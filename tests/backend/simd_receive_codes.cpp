@@ -100,6 +100,7 @@ void check_lanes(const std::vector<Texel>& texels, const std::vector<std::uint16
     std::vector<Intensity> expected(z.size()), made(z.size());
     gnomon::receive(texels, z, expected, r);
     for_each_isa([&]<typename Isa>() {
+        std::fill(made.begin(), made.end(), Intensity{77});
         gnomon::receive(simd<Isa>{}, texels, z, made, r);
         CHECK(std::memcmp(expected.data(), made.data(), made.size() * sizeof(Intensity)) == 0);
     });
@@ -219,8 +220,8 @@ TEST_CASE_TEMPLATE("lanes decide pairs of words as the oracle does, of the least
                 const rg16 t{{static_cast<std::uint16_t>(depth), static_cast<std::uint16_t>(mask)}};
                 const int lit = last_lit_code<float>(t, r);
                 for (const int code : {0, 1, lit - 2, lit - 1, lit, lit + 1, lit + 2, lit + 3, 32768, 65534, 65535}) {
-                    texels.insert(texels.end(), 32, t); // of one register, so that no neighbour is unsure in its place
-                    z.insert(z.end(), 32, nearest_code(code));
+                    texels.insert(texels.end(), 64, t); // a register of the widest lanes: no neighbour is unsure in its place
+                    z.insert(z.end(), 64, nearest_code(code));
                 }
             }
         check_lanes<typename Row::intensity>(texels, z, r);
@@ -249,22 +250,24 @@ TEST_CASE_TEMPLATE("of words the quick way tells what is surely lit or shadowed,
     for (const int k : {1, 2}) {
         const rule r{.caster = {.roundings = k, .caster_is_code = true}}; // moves no depth
         CAPTURE(k);
-        // M = 65535: the high half of M Z is Z - 1, so that Z - 1 is compared with 65535 - E + k.
+        // M = 65535: the high half of M Z is Z - 1, so it is surely in shadow from Z - 1 = F on.
         for (const int depth : {1, 1000, 40000, 65535}) {
             const rg16 t{{static_cast<std::uint16_t>(depth), 65535}};
-            const int least = 65535 - depth + k; // that surely is in shadow
-            if (least + 1 <= 65535) CHECK(told_of_words<Intensity>(t, least + 1, r, all));
-            if (least <= 65535) CHECK_FALSE(told_of_words<Intensity>(t, least, r, 0));
-            if (least <= 65535) CHECK_FALSE(told_of_words<Intensity>(t, least - 1, r, 0));
-            if (least >= 3) CHECK(told_of_words<Intensity>(t, least - 2, r, 0));
+            const int f = 65535 - depth + k;
+            if (f + 1 <= 65535) CHECK(told_of_words<Intensity>(t, f + 1, r, all));
+            if (f <= 65535) CHECK_FALSE(told_of_words<Intensity>(t, f, r, 0));
+            if (f - 1 <= 65535) CHECK_FALSE(told_of_words<Intensity>(t, f - 1, r, 0));
+            if (f >= 3) CHECK(told_of_words<Intensity>(t, f - 2, r, 0));
         }
-        for (const int depth : {0, 1, 30000, 65535}) CHECK(told_of_words<Intensity>(rg16::clear(), depth, r, 0));
+        for (const int z : {0, 1, 30000, 65535}) CHECK(told_of_words<Intensity>(rg16::clear(), z, r, 0));
+        for (const int z : {0, 1, 30000, 65535}) CHECK(told_of_words<Intensity>(rg16{{0, 1}}, z, r, 0));
+        CHECK_FALSE(told_of_words<Intensity>(rg16{{1, 1}}, 65535, r, 0));
         CHECK_FALSE(told_of_words<Intensity>(rg16{{500, 100}}, 100, r, 0)); // no caster has such a pair
     }
     const auto tries = [](const gnomon::bias& b) {
         return gnomon::on_any::word_decision<gnomon::emulated<16>, rg16, Intensity>::of({.caster = b}).asked_for_by_filters;
     };
-    CHECK((tries({}) && tries({.roundings = 2}) && tries({.depth = 0.125f})));
+    CHECK((tries({}) && tries({.roundings = 2}) && tries({.depth = 0.125f}) && tries({.caster_is_code = true})));
     CHECK_FALSE((tries({.roundings = 0}) || tries({.roundings = 3}) || tries({.depth = -0.125f}) || tries(gnomon::unbiased) ||
                  tries(gnomon::towards_shadow)));
 }
@@ -336,7 +339,7 @@ TEST_CASE("of rows the shortest span counts in lanes too") {
 }
 
 TEST_CASE_TEMPLATE("results may take the place of what they come from, in lanes as in the oracle", Row, byte_row, word_row,
-                   float_row) {
+                   word_row_to_bytes, float_row) {
     using Texel = typename Row::texel;
     using Depth = typename Row::depth;
     using Intensity = typename Row::intensity;
@@ -345,7 +348,7 @@ TEST_CASE_TEMPLATE("results may take the place of what they come from, in lanes 
     std::vector<Depth> z(333);
     for (std::size_t i = 0; i < texels.size(); ++i) {
         texels[i] = test::any_caster<Texel>(roll);
-        set(z[i], any_depth<Row>(roll, texels[i]));
+        set(z[i], i < 160 ? roll.unit() : any_depth<Row>(roll, texels[i])); // where lanes are sure, and then where they are not
     }
     std::vector<Intensity> apart(333);
     gnomon::receive(texels, z, apart);

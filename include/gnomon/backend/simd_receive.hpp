@@ -135,7 +135,8 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
             if (!decided_sums(by, e, m, there, depths, shadowed)) return false;
         } else if constexpr (whole_codes) {
             shadowed = decided_codes(by, e, m, depths);
-            if constexpr (Texel::effects.translucency) shadowed = Isa::both(shadowed, there); // or there is nothing to store
+            if constexpr (Texel::effects.translucency)
+                shadowed = Isa::both(shadowed, there); // else the mask is stored, and is 0 there
         } else {
             if (!decided_floats(by, e, m, there, depths, shadowed)) return false;
         }
@@ -237,11 +238,11 @@ template <typename Isa, texel_format Texel> struct byte_decision {
 /// Pairs of 16 bits, depths of 16 bits, results in codes: a register of results at a time, in whole numbers of 16 bits.
 ///
 /// With k roundings towards the light, and z already moved, a receiver is shadowed iff (M + k/2) Z > 65535 F, F = M - E + k, as above.
-/// Let h be the high half of M Z. For k of 1 or 2, and E <= M,
+/// Let h be the high half of M Z. For k of 1 or 2, and E <= M, where F is 65537 at most,
 ///     h >= F        M Z >= 65536 F > 65535 F     shadowed
-///     h <= F - 3    (M + k/2) Z <= 65536 h + 2 * 65535 <= 65536 F - 65538 <= 65535 F     lit
-/// What is left, h of F-1 or F-2, is unsure; so is what is not shadowed where E > M. The other decision sees to such a register, and to
-/// any other rule.
+///     h <= F - 3    (M + k/2) Z <= 65536 h + 2 * 65535 <= 65536 F - 65538 <= 65535 F, for F <= 65538     lit
+/// What is left, h of F-1 or F-2, is unsure. Where E > M, h >= k > F is shadowed and less is unsure. The other decision sees to such a
+/// register, and to any other rule. A mask M is unsure of 131072 / M codes of Z, two where it is full.
 template <typename Isa, texel_format Texel, typename Intensity> struct word_decision {
     using ints = typename Isa::ints;
     using any_decision = decision<Isa, Texel, std::uint16_t, Intensity>;
@@ -261,7 +262,7 @@ template <typename Isa, texel_format Texel, typename Intensity> struct word_deci
 
     GNOMON_LANES ints words(int n) noexcept { return Isa::repeat32(std::uint32_t{static_cast<std::uint16_t>(n)} * 0x10001u); }
     /// As the result is stored: a code of 16 bits itself, or the nearest of 8 bits, floor(t / 257) where t is M + 128 or, if that is
-    /// less, 65535; and that is the high half of t - floor(t / 256), for every t.
+    /// less, 65535; and that is the upper byte of t - floor(t / 256), for every t.
     GNOMON_LANES ints stored(const ints& mask) noexcept {
         if constexpr (sizeof(Intensity) == 2) {
             return mask;
@@ -272,7 +273,7 @@ template <typename Isa, texel_format Texel, typename Intensity> struct word_deci
         }
     }
     /// The shadows of a register of receivers. False if it does not tell. A mask less than two codes counts as two, so that clear
-    /// texels, of which most maps are full, are surely lit; and no mask of one code is surely anything else.
+    /// texels, of which most maps are full, are surely lit. So is a mask of one code where E is 0; for a greater E it is unsure.
     GNOMON_LANES bool shade(const word_decision& by, const std::uint16_t* texels, const std::uint16_t* depths,
                             ints& shades) noexcept {
         const ints first = Isa::load(texels), second = Isa::load(texels + at_once), two = words(2);
