@@ -135,8 +135,9 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
             if (!decided_sums(by, e, m, there, depths, shadowed)) return false;
         } else if constexpr (whole_codes) {
             shadowed = decided_codes(by, e, m, depths);
-            if constexpr (Texel::effects.translucency)
-                shadowed = Isa::both(shadowed, there); // else the mask is stored, and is 0 there
+            if constexpr (Texel::effects.translucency) { // else the mask is stored, and is 0 there
+                shadowed = Isa::both(shadowed, there);
+            }
         } else {
             if (!decided_floats(by, e, m, there, depths, shadowed)) return false;
         }
