@@ -18,13 +18,11 @@ namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 template <texel_format Texel>
 inline constexpr bool decidable_pairs = !Texel::effects.far_bound && std::same_as<typename Texel::representation_type, depth_mask>;
 
-/// Pairs of two bytes, and of two words of 16 bits.
-template <texel_format Texel>
-inline constexpr bool byte_pairs =
-    decidable_pairs<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, unorm8>;
-template <texel_format Texel>
-inline constexpr bool word_pairs =
-    decidable_pairs<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, unorm16>;
+/// Pairs of two numbers of a channel; and of two bytes.
+template <texel_format Texel, typename Channel>
+inline constexpr bool pairs_of =
+    decidable_pairs<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, Channel>;
+template <texel_format Texel> inline constexpr bool byte_pairs = pairs_of<Texel, unorm8>;
 
 /// One register of receivers at a time. A receiver is shadowed iff e > m (1-z), see receive/decide.hpp: of a biased pair and depth, the
 /// sign of a product and a sum, and exact wherever `decided` says that it is. What is left goes by the scalar loop. With float depths
@@ -319,7 +317,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     constexpr bool codes = std::same_as<Depth, std::uint16_t>;
     if constexpr (byte_pairs<Texel> && codes && std::same_as<Intensity, std::uint8_t>)
         return std::type_identity<byte_decision<Isa, Texel>>{};
-    else if constexpr (word_pairs<Texel> && codes && !std::same_as<Intensity, float>)
+    else if constexpr (pairs_of<Texel, unorm16> && codes && !std::same_as<Intensity, float>)
         return std::type_identity<word_decision<Isa, Texel, Intensity>>{};
     else
         return std::type_identity<decision<Isa, Texel, Depth, Intensity>>{};
