@@ -1,6 +1,7 @@
 // Decisions in lanes against the oracle, bit for bit: every width up to two registers and a bit, any stride, any rule, depths that are
 // none; and for bytes every pair there is, at its threshold.
 #include <gnomon/backend/simd.hpp>
+#include <gnomon/backend/simd_decision.hpp>
 #include <gnomon/backend/simd_receive.hpp>
 #include <gnomon/soft_shadow_map.hpp>
 

@@ -1,6 +1,7 @@
 // Decisions in lanes on depths and intensities in codes against the oracle, bit for bit: every width up to two registers and a bit, any
 // stride, alignment and rule, results in place; and for bytes every pair there is, at the codes where its shadow begins.
 #include <gnomon/backend/simd.hpp>
+#include <gnomon/backend/simd_codes.hpp>
 #include <gnomon/backend/simd_receive.hpp>
 
 #include "../support/formats.hpp"

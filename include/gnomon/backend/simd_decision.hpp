@@ -1,0 +1,149 @@
+// gnomon: soft shadow maps. The decision in lanes, first part: by floats, of any pair and depth. Included by simd_receive.hpp, and in its
+// way.
+
+#include <gnomon/receive/receive.hpp>
+#include <gnomon/simd/region.hpp>
+
+#include <concepts>
+#include <cstdint>
+#include <limits>
+
+#ifdef GNOMON_ON
+namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
+
+/// Premultiplied pairs that no receiver bounds: what lanes decide.
+template <texel_format Texel>
+inline constexpr bool decidable_pairs = !Texel::effects.far_bound && std::same_as<typename Texel::representation_type, depth_mask>;
+
+/// One register of receivers at a time. A receiver is shadowed iff e > m (1-z), see receive/decide.hpp: of a biased pair and depth, the
+/// sign of a product and a sum, and exact wherever `decided` says that it is. What is left goes by the scalar loop. With float depths
+/// that is no code, and floats only if m <= 2^-50 or z is moved by more than the range; with depths in codes it is one receiver in a
+/// million, and who is moved behind every caster.
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct decision {
+    using channel_type = typename Texel::channel_type;
+    using storage = typename Texel::storage;
+    using floats = typename Isa::floats;
+    using masks = typename Isa::masks;
+    static constexpr int step = Isa::float_lanes;
+    static constexpr bool whole_codes = channel_type::whole_codes;
+
+    floats depth_less, depth_share, mask_more, mask_share, nearer; ///< the bias
+    floats before;                                                 ///< a depth in codes there, once moved, is lit
+    floats least_mask;                                             ///< what float decides of
+    bool next_to_nothing; ///< may a float depth be, once moved? Then it tells where e = m, and the scalar loop sees to it.
+    const rule* by_rule;
+
+    [[nodiscard]] static decision of(const rule& r) noexcept {
+        const auto steps = bias_steps<Texel>::of(r.caster);
+        constexpr float nothing = std::numeric_limits<float>::infinity();
+        const float moved = std::same_as<Depth, float> ? steps.nearer : static_cast<float>(codes_towards_light<Texel>(r.caster));
+        return {Isa::repeat(static_cast<float>(steps.depth_less)),
+                Isa::repeat(static_cast<float>(steps.depth_share)),
+                Isa::repeat(static_cast<float>(steps.mask_more)),
+                Isa::repeat(static_cast<float>(steps.mask_share)),
+                Isa::repeat(moved),
+                Isa::repeat(greater(0.0f, -moved)),
+                Isa::repeat(whole_codes ? 0.0f : (moved > 1.0f && std::same_as<Depth, float> ? nothing : 0x1p-50f)),
+                moved < 0x1p-26f && moved > -0x1p-26f, // beyond, what is left of a difference is more
+                &r};
+    }
+
+    GNOMON_LANES floats codes(const storage* texels, int index) noexcept {
+        return Isa::template codes_of<channel_type, Texel::channels>(texels, index);
+    }
+    /// a share, as `apply` has it: rounded before anything is added, which g++ would fuse with it from -O2 on.
+    GNOMON_LANES floats moved(const floats& a, const floats& share) noexcept {
+        if constexpr (whole_codes) {
+            return a; // the share is 1
+        } else {
+            floats product = Isa::multiply(a, share);
+            Isa::settle(product);
+            return product;
+        }
+    }
+
+    /// m z + (e-m) > 0. Codes, and the halves they are biased by, keep e-m exact, and the product is asked for its sign.
+    GNOMON_LANES masks decided_codes(const decision& by, const floats& e, const floats& m, const float* depths) noexcept {
+        const floats depth = Isa::load(depths), rest = Isa::subtract(e, m);
+        // Doubled they are whole, and times the least depth there is still something.
+        masks shadowed = Isa::positive(Isa::add(m, m), Isa::subtract(depth, by.nearer), Isa::add(rest, rest));
+        shadowed = Isa::both(shadowed, Isa::greater(depth, Isa::repeat(0.0f)));
+        if (by.by_rule->lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
+        return shadowed;
+    }
+    /// For z < 1/2 the same: e-m is exact if m/2 <= e <= 2m, and if e is less, m z < m/2 is less than m-e either way, if more, all from
+    /// z = -1 on are shadowed. Else m (z-1) + e > 0, where z-1 is exact up to 2^24, and beyond that everything is behind every caster.
+    GNOMON_LANES bool decided_floats(const decision& by, const floats& e, const floats& m, const masks& there, const float* depths,
+                                     masks& shadowed) noexcept {
+        const floats depth = Isa::load(depths), zero = Isa::repeat(0.0f), half = Isa::repeat(0.5f);
+        const floats z = Isa::subtract(depth, by.nearer);
+        const floats beyond = Isa::subtract(z, Isa::keep(Isa::not_greater(half, z), Isa::repeat(1.0f)));
+        const floats rest = Isa::subtract(e, Isa::keep(Isa::greater(half, z), m));
+        shadowed = Isa::both(Isa::positive(m, beyond, rest), Isa::both(there, Isa::greater(depth, zero)));
+        if (by.by_rule->lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
+        return !Isa::any(Isa::both(there, Isa::not_greater(m, by.least_mask))) &&
+               !(by.next_to_nothing && Isa::any(Isa::both(Isa::greater(z, zero), Isa::greater(Isa::repeat(0x1p-50f), z))));
+    }
+    /// m z + (e-m) 65535 > 0, z in codes. Three roundings are wrong by 3 * 2^-24 * 65535 m < m/64 at most where the two cancel; so
+    /// within m/16 of nothing the sum says nothing.
+    GNOMON_LANES bool decided_sums(const decision& by, const floats& e, const floats& m, const masks& there,
+                                   const std::uint16_t* depths, masks& shadowed) noexcept {
+        const floats last = Isa::repeat(static_cast<float>(depth16::last));
+        const floats z = Isa::subtract(Isa::template codes_of<unorm16, 1>(depths, 0), by.nearer);
+        const floats sum = Isa::add_product(Isa::multiply(Isa::subtract(e, m), last), m, z),
+                     doubt = Isa::multiply(m, Isa::repeat(0.0625f));
+        const masks asked = Isa::both(there, Isa::greater(z, by.before));
+        shadowed = Isa::both(asked, Isa::not_greater(Isa::subtract(Isa::repeat(0.0f), doubt), sum));
+        return !Isa::any(Isa::both(shadowed, Isa::not_greater(sum, doubt))) &&
+               !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) &&
+               !Isa::any(Isa::both(asked, Isa::greater(z, last)));
+    }
+
+    GNOMON_LANES_VOID void store(Intensity* to, const masks& shadowed, const floats& darkness) noexcept {
+        if constexpr (std::same_as<Intensity, float> && whole_codes)
+            Isa::store(to, Isa::keep(shadowed, Isa::fraction(darkness, channel_type::scale)));
+        else if constexpr (std::same_as<Intensity, float>)
+            Isa::store(to, Isa::keep(shadowed, Isa::lesser(darkness, Isa::repeat(1.0f))));
+        else if constexpr (sizeof(Intensity) == sizeof(storage))
+            Isa::template store_codes<unorm<Intensity>>(to, Isa::keep(shadowed, darkness));
+        else if constexpr (sizeof(Intensity) > sizeof(storage))
+            Isa::template store_codes<unorm16>(to, Isa::keep(shadowed, Isa::multiply(darkness, Isa::repeat(257.0f))));
+        else // (m + 128) / 257, rounded down: with a half more it is never near a whole number
+            Isa::template store_codes<unorm8>(
+                to, Isa::keep(shadowed, Isa::multiply(Isa::add(darkness, Isa::repeat(128.5f)), Isa::repeat(1.0f / 257.0f))));
+    }
+
+    /// False, and nothing stored, if lanes do not tell.
+    GNOMON_LANES bool one(const decision& by, const storage* texels, const Depth* depths, Intensity* to) noexcept {
+        const floats mask = codes(texels, Texel::mask_index);
+        const floats e = moved(Isa::subtract(codes(texels, Texel::depth_index), by.depth_less), by.depth_share);
+        const floats m = moved(Isa::add(mask, by.mask_more), by.mask_share);
+        const masks there = Isa::greater(mask, Isa::repeat(0.0f));
+        masks shadowed;
+        if constexpr (std::same_as<Depth, std::uint16_t>) {
+            if (!decided_sums(by, e, m, there, depths, shadowed)) return false;
+        } else if constexpr (whole_codes) {
+            shadowed = decided_codes(by, e, m, depths);
+            if constexpr (Texel::effects.translucency) { // else the mask is stored, and is 0 there
+                shadowed = Isa::both(shadowed, there);
+            }
+        } else {
+            if (!decided_floats(by, e, m, there, depths, shadowed)) return false;
+        }
+        if constexpr (Texel::effects.translucency)
+            store(to, shadowed, codes(texels, Texel::contribution_index));
+        else
+            store(to, shadowed, mask);
+        return true;
+    }
+    static void slow(const rule& r, const Texel* texels, const Depth* depths, Intensity* to) noexcept {
+        for (int i = 0; i < step; ++i) to[i] = shadow_as<Intensity>(read(texels[i]), detail::as_depth(depths[i]), r);
+    }
+    GNOMON_LANES_VOID void rows(const decision& by, const Texel* texels, const Depth* depths, Intensity* to, int count) noexcept {
+        for (int i = 0; i < count; i += step)
+            if (!one(by, texels[i].stored, depths + i, to + i)) slow(*by.by_rule, texels + i, depths + i, to + i);
+    }
+};
+
+} // namespace gnomon::inline GNOMON_BUILD::GNOMON_ON
+#endif
