@@ -39,7 +39,8 @@ def preprocess(compiler, include, source, *options):
 
 
 def main(check, plants):
-    """Runs check(include, compiler) -> list of complaints; with --self-test runs it on copies with one fault planted each.
+    """Runs check(include, compiler) -> complaints; with --self-test runs it on copies with one fault planted each, until
+    it finds that.
 
     A plant is (header, text to append, words the complaint must hold)."""
     arguments = argparse.ArgumentParser()
@@ -48,7 +49,7 @@ def main(check, plants):
     arguments.add_argument("--self-test", action="store_true")
     given = arguments.parse_args()
     if not given.self_test:
-        complaints = check(given.include, given.compiler)
+        complaints = list(check(given.include, given.compiler))
         print("\n".join(complaints))
         sys.exit(1 if complaints else 0)
     missed = 0
@@ -58,7 +59,7 @@ def main(check, plants):
             shutil.copytree(given.include, copy)
             with (copy / header).open("a") as file:
                 file.write(text)
-            found = [c for c in check(copy, given.compiler) if words in c]
+            found = any(words in c for c in check(copy, given.compiler))
         print(f"{'found ' if found else 'MISSED'} {text.strip()!r} in {header}")
         missed += not found
     sys.exit(1 if missed else 0)

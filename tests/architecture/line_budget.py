@@ -25,18 +25,16 @@ def budget(include, header):
 
 
 def check(include, compiler):
-    complaints = []
     for header in headers.all_headers(include):
         if folder(header) in LIGHT_FOLDERS:
-            complaints += [f"{header}: <{n}> is too heavy for {folder(header)}/" for _, n in headers.includes(include, header) if n in HEAVY]
+            yield from (f"{header}: <{n}> is too heavy for {folder(header)}/" for _, n in headers.includes(include, header) if n in HEAVY)
         if folder(header) in ("geometry", "simd", "gl"):
             continue  # GLM, immintrin.h and GL text have their own price
         lines = sum(1 for line in headers.preprocess(compiler, include, f"#include <{header}>\n", "-P").splitlines() if line.strip())
         allowed = budget(include, header)
         print(f"{lines:6} of {allowed}  {header}")
         if lines > allowed:
-            complaints.append(f"{header}: {lines} lines after preprocessing, {allowed} are allowed")
-    return complaints
+            yield f"{header}: {lines} lines after preprocessing, {allowed} are allowed"
 
 
 headers.main(check, [
