@@ -1,5 +1,5 @@
 # --gl: tests/*/*_gl.cpp on every GL that can be had here, each kind in a process of its own, for Mesa has one OpenGL ES and one rasteriser
-# in a process. Built by g++ -O2. Ends with what was compared, texel by texel, with the backend scalar.
+# in a process. Built by g++ -O0. Ends with what was compared, texel by texel, with the backend scalar.
 gl_kinds() { # name | words of GNOMON_TEST_GL, which tests/support/gl_context.hpp explains | packages beside Mesa's
     cat <<'TABLE'
 GL 4.5, GL 3.3, ES 3.2     | 4.5 3.3 es       |

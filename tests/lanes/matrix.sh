@@ -45,6 +45,7 @@ other_rows() {
 geometry-fused   | geometry/ with fused multiply-adds: the lines called exact must not change
 fast-math        | what -ffast-math is made of must be refused; and what it would change
 can-fail         | four copies of the library, each with one thing broken: a line must change
+tests-gcc-O2     | the tests of texel/, filter/, receive/, simd/ and backend/ themselves, optimised as users have it
 tests-aarch64    | the tests of texel/, filter/ and receive/ themselves, on 64-bit ARM
 tests-s390x      | those of texel/, filter/ and receive/ on a big-endian processor
 tests-wasm       | those of simd/ and backend/ in WebAssembly, with its vectors
@@ -236,6 +237,9 @@ TABLE
     row "$1" "$caught" "$missed" 0 $((SECONDS - began)) "broken copies of the library that turned a line red"
 }
 
+row_tests_gcc_O2() {
+    test_row "$1" "texel filter receive simd backend" g++ "g++ -O2" ""
+}
 row_tests_aarch64() {
     test_row "$1" "texel filter receive simd backend" "g++-aarch64-linux-gnu" "aarch64-linux-gnu-g++ -O2" "qemu-aarch64 -L /usr/aarch64-linux-gnu"
 }

@@ -155,7 +155,7 @@ class Tree:
                             for quote, name in INCLUDE.findall(p.read_text())
                             if quote == "<" and name not in self.headers and not name.endswith((".h", "main.hpp"))}
                 (folder / "all.hpp").write_text("".join(f"#include <{name}>\n" for name in sorted(standard)))
-                line = [self.compiler, "-std=c++20", "-w", "-D_GLIBCXX_ASSERTIONS", "-DGNOMON_TEST_STOPS_AT_FIRST",
+                line = [self.compiler, "-std=c++20", "-w", "-D_GLIBCXX_ASSERTIONS", "-DGNOMON_TEST_STOPS_AT_FIRST", "-DGNOMON_TEST_ARRAYS",
                         "-ftrivial-auto-var-init=pattern", *options, "-fuse-ld=lld", f'-DGNOMON_TEST_DATA="{self.tests}/data"']
                 subprocess.run([*line, "-x", "c++-header", "-fpch-instantiate-templates", folder / "all.hpp", "-o", folder / "all.pch"], check=True)
                 subprocess.run([*line, "-c", self.tests / "main.cpp", "-o", folder / "main.o"], check=True)

@@ -13,6 +13,8 @@ inline void* counted(std::size_t bytes, std::size_t alignment) {
     if (void* p = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment)) return p;
     throw std::bad_alloc();
 }
+/// Out of line: g++ takes a free for a mistake where it sees that and not the new.
+[[gnu::noinline]] inline void released(void* p) noexcept { std::free(p); }
 } // namespace test
 
 void* operator new(std::size_t bytes) { return test::counted(bytes, alignof(std::max_align_t)); }
@@ -29,14 +31,14 @@ void operator delete[](void*, std::size_t) noexcept;
 void operator delete(void*, std::size_t, std::align_val_t) noexcept;
 void operator delete[](void*, std::size_t, std::align_val_t) noexcept;
 
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete[](void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
-void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p) noexcept { test::released(p); }
+void operator delete[](void* p) noexcept { test::released(p); }
+void operator delete(void* p, std::size_t) noexcept { test::released(p); }
+void operator delete[](void* p, std::size_t) noexcept { test::released(p); }
+void operator delete(void* p, std::align_val_t) noexcept { test::released(p); }
+void operator delete[](void* p, std::align_val_t) noexcept { test::released(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { test::released(p); }
+void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { test::released(p); }
 
 namespace test {
 /// Allocations made while f runs.

@@ -13,11 +13,11 @@ template <typename Isa, typename F> void for_isa(F&& f) {
     if constexpr (is_asked<Isa>) f.template operator()<Isa>();
 }
 
-/// Calls f.template operator()<Isa>() for what the processor has, by name and as the best of them, and for lanes that are arrays,
-/// unless g++ would optimise these, which takes it longer than all the others, for a processor that has no use for them.
+/// Calls f.template operator()<Isa>() for what the processor has, by name and as the best of them, and for lanes that are arrays: on x86,
+/// which has no use for them, only if they are asked for, since they take longer than all the others.
 template <typename F> void for_each_isa(F&& f) {
     for_isa<gnomon::best_isa>(f);
-#if !GNOMON_X86 || !defined(__OPTIMIZE__) || defined(__clang__)
+#if !GNOMON_X86 || defined(GNOMON_TEST_ARRAYS)
     for_isa<gnomon::emulated<48>>(f);
 #endif
 #if GNOMON_X86
