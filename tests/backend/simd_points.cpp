@@ -246,6 +246,15 @@ TEST_CASE("lanes say that they decided, and leave nothing to be decided again") 
     });
 }
 
+TEST_CASE("results of receivers anywhere are called for ahead of time, each register's once") {
+    const image<rg8> map({4, 4}, rg8::caster(0.5f));
+    const std::vector<float> where(40, 1.5f);
+    std::vector<float> made(40);
+    test::counted_lanes::forget();
+    gnomon::receive(simd<test::counted_lanes>{}, map.view(), where, where, where, made);
+    CHECK(test::counted_lanes::prefetches == 40 / test::counted_lanes::float_lanes);
+}
+
 TEST_CASE("receivers anywhere: the shortest span counts in lanes too") {
     dice roll(435);
     const image<rg8> map = test::noise<rg8>(roll, {40, 30}, 2);

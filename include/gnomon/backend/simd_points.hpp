@@ -32,6 +32,9 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     /// A few registers of receivers on their way from place to texels to decision. They pause before either, for what is stored as a
     /// whole and loaded piece by piece, or the other way round, takes its time, and so do texels that are not in the first cache.
     static constexpr int pause = 3 * step, ring = 8 * step;
+    /// Results are called for so many bytes ahead: stores reach the cache in their order, and those to `work` would wait for a result
+    /// that is not in it. It may lie beyond the last result.
+    static constexpr std::uintptr_t ahead = 512;
     struct work {
         int at[static_cast<std::size_t>(ring)]; ///< bytes from the map to the upper left texel
         std::uint32_t across[static_cast<std::size_t>(ring)], above[static_cast<std::size_t>(ring)],
@@ -173,6 +176,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
             if (first >= pause && first < count + pause) fetch(by, w, (first - pause) % ring);
             const int i = first - 2 * pause;
             if (i < 0) continue;
+            Isa::prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(to + i) + ahead));
             const pair blended = blend(w, i % ring);
             masks shadowed;
             if (decided(by, {Isa::add(blended.e, by.e), Isa::add(blended.m, by.m)}, blended.m, z + i, shadowed))
