@@ -401,7 +401,8 @@ TEST_CASE("lanes add rows to the sums of columns a register at a time, and what 
     CHECK(sums == std::array<std::uint32_t, 11>{12, 12, 12, 12, 12, 12, 12, 9, 6, 3, 3});
 }
 
-TEST_CASE("results of 16 MiB and more are written past the caches, and maps of 4 MiB and more are called for ahead of time") {
+TEST_CASE(
+    "results of 16 MiB and more go past the caches, and maps of 4 MiB are called for ahead of time, of 1 MiB by narrow regions") {
     using kernel = gnomon::fast<box<0>>;
     const image<gnomon::rg32f> map({2048, 1024}, gnomon::rg32f::clear());
     image<gnomon::rg32f> made(map.size());
@@ -415,11 +416,12 @@ TEST_CASE("results of 16 MiB and more are written past the caches, and maps of 4
     CHECK(test::counted_lanes::fences == 1);
     filter(whole(map.size()), {0, 0, 2048, 1023});
     CHECK((test::counted_lanes::streams == 0 && test::counted_lanes::fences == 0));
-    const texel_rect part{0, 0, 4, 4};
-    filter({0, 0, 1024, 512}, part);
-    CHECK(test::counted_lanes::prefetches > 0);
-    filter({0, 0, 1024, 511}, part);
-    CHECK(test::counted_lanes::prefetches == 0);
+    const auto called_for = [&](int height, int width) {
+        filter({0, 0, 1024, height}, {0, 0, width, 4});
+        return test::counted_lanes::prefetches > 0;
+    };
+    CHECK((called_for(512, 1024) && !called_for(511, 1024)));
+    CHECK((called_for(128, 1023) && !called_for(127, 1023)));
 }
 
 namespace {
