@@ -2,6 +2,7 @@
 // stride, alignment and rule, results in place; and for bytes every pair there is, at the codes where its shadow begins.
 #include <gnomon/backend/simd.hpp>
 #include <gnomon/backend/simd_codes.hpp>
+#include <gnomon/backend/simd_decision.hpp>
 #include <gnomon/backend/simd_receive.hpp>
 
 #include "../support/formats.hpp"
