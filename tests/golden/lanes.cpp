@@ -6,7 +6,6 @@
 
 #include <gnomon/backend/simd.hpp>
 
-#include <concepts>
 #include <cstdint>
 #include <tuple>
 #include <vector>

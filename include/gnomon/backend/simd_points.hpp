@@ -32,15 +32,15 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     /// A few registers of receivers on their way from place to texels to decision. They pause before either, for what is stored as a
     /// whole and loaded piece by piece, or the other way round, takes its time, and so do texels that are not in the first cache.
     static constexpr int pause = 3 * step, ring = 8 * step;
-    /// Results are called for so many bytes ahead: stores reach the cache in their order, and those to `work` would wait for a result
-    /// that is not in it. It may lie beyond the last result.
-    static constexpr std::uintptr_t ahead = 512;
     struct work {
         int at[static_cast<std::size_t>(ring)]; ///< bytes from the map to the upper left texel
         std::uint32_t across[static_cast<std::size_t>(ring)], above[static_cast<std::size_t>(ring)],
             below[static_cast<std::size_t>(ring)];
         float here[static_cast<std::size_t>(ring)], next[static_cast<std::size_t>(ring)];
     };
+    /// Results are called for so many bytes ahead: stores reach the cache in their order, and those to `work` would wait for a result
+    /// that is not in it. It may lie beyond the last result.
+    static constexpr std::uintptr_t ahead = 512;
 
     const void* map;
     ints last_column, last_row, stride; ///< the last texel that has a next one, and bytes from row to row
