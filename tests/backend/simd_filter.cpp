@@ -86,6 +86,13 @@ struct steep {
     static constexpr std::array weights{2, 3, 4, 6, 8, 9, 64, 9, 8, 6, 4, 3, 2};
 };
 
+/// The centre has all of the weight, which is no factor that a product takes: 256 is no byte, and 2^15 no signed word.
+struct one_tap {
+    static constexpr int radius = 2;
+    static constexpr int total = 1;
+    static constexpr std::array weights{0, 0, 1, 0, 0};
+};
+
 } // namespace
 
 TEST_CASE_TEMPLATE("lanes filter as the oracle does, for every width to 67 and at every alignment", Texel, rg8, gnomon::rg16,
@@ -138,6 +145,12 @@ TEST_CASE(
         const image_view<const test::paper16> of_papers = papers.view();
         CHECK(differing<Isa, tent<1>>(of_bytes, whole(bytes.size())) == 0); // 128 is no signed byte
         CHECK(differing<Isa, steep>(of_bytes, whole(bytes.size())) == 0);
+        CHECK(differing<Isa, one_tap>(of_bytes, whole(bytes.size())) == 0);
+        CHECK(differing<Isa, gnomon::fast<gaussian<1, 28>>>(of_bytes, whole(bytes.size())) == 0); // 256 of 256, where 29 % is not
+        CHECK(differing<Isa, gnomon::fast<gaussian<1, 29>>>(of_bytes, whole(bytes.size())) == 0);
+        CHECK(differing<Isa, gnomon::fast<one_tap>>(of_words, whole(words.size())) == 0);
+        CHECK(differing<Isa, gnomon::fast<gaussian<1, 21>>>(of_words, whole(words.size())) == 0); // 2^15 of 2^15
+        CHECK(differing<Isa, gnomon::fast<gaussian<1, 22>>>(of_words, whole(words.size())) == 0);
         CHECK(differing<Isa, gnomon::fast<gaussian<32>>>(of_bytes, whole(bytes.size())) == 0);
         CHECK(differing<Isa, gnomon::fast<tent<1>>>(of_words, whole(words.size())) == 0);
         CHECK(differing<Isa, gnomon::fast<binomial<17>>>(of_words, whole(words.size())) == 0);

@@ -20,12 +20,16 @@
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
-/// What lanes filter: premultiplied texels, and pairs of a ratio whose sums, of products of two codes, are exact in double.
+/// What lanes filter: premultiplied texels, and pairs of a ratio whose sums, of products of two codes, are exact in double; not by
+/// `narrow`, nor by what `fast` makes a single tap of in words.
 template <kernel Kernel, texel_format Texel>
 inline constexpr bool filtered_in_lanes = [] {
-    constexpr double total = detail::sums<Texel, Kernel>::weights_of::total;
+    using by = detail::sums<Texel, Kernel>;
+    constexpr double total = by::weights_of::total;
     constexpr bool exact = Texel::channels == 2 && Texel::linear_scale * total * total < 0x1p53;
-    return Kernel::radius <= 256 && !detail::is_narrow<Kernel> && (Texel::representation_type::premultiplied || exact);
+    constexpr bool known = Kernel::radius <= 256 && !detail::is_narrow<Kernel> &&
+                           !(by::stored_between && is_one_tap<typename by::weights_of>);
+    return known && (Texel::representation_type::premultiplied || exact);
 }();
 
 /// What serves a texel and a kernel best. All give the same bits where several can.

@@ -38,9 +38,13 @@ template <kernel Kernel, int Total> struct neighbouring_weights {
     }();
 };
 
+/// Has the centre all of the weight? 256 of 256 is no factor that a product takes, nor 2^15 of 2^15.
+template <kernel Kernel>
+inline constexpr bool is_one_tap = Kernel::weights[static_cast<std::size_t>(Kernel::radius)] == Kernel::total;
+
 /// Do bytes go by whole numbers of 16 bits? Weights of eight bits do.
 template <kernel Kernel>
-inline constexpr bool in_eight_bits = Kernel::radius > 0 && Kernel::total <= 256 && 256 % Kernel::total == 0;
+inline constexpr bool in_eight_bits = !is_one_tap<Kernel> && Kernel::total <= 256 && 256 % Kernel::total == 0;
 
 /// What filters of whole codes share. Bytes and weights of eight bits: column sums of 16 bits, exact in 8.8, then sums of 32 bits and
 /// one rounding. 16-bit codes and weights of 15 bits: sums of 32 bits, rounded to 16 after each pass. Codes are taken less half their
