@@ -78,7 +78,8 @@ class directional_light {
     };
 
     static void include(range& r, const bounding_box& box, const glm::dvec3& axis) noexcept {
-        r.include(glm::dot((box.lower + box.upper) * 0.5, axis), glm::dot((box.upper - box.lower) * 0.5, glm::abs(axis)));
+        const glm::dvec3 along(std::abs(axis.x), std::abs(axis.y), std::abs(axis.z));
+        r.include(glm::dot((box.lower + box.upper) * 0.5, axis), glm::dot((box.upper - box.lower) * 0.5, along));
     }
 
     /// `size` rounded up to a power of 2^(1/8). The millionth keeps round numbers off the steps, where rounding would toggle them. 0

@@ -51,6 +51,12 @@ namespace detail {
     return {a.x, b.x, c.x, d.x, a.y, b.y, c.y, d.y, a.z, b.z, c.z, d.z, a.w, b.w, c.w, d.w};
 }
 
+/// a * b. GLM's own is too long for compilers to inline, and its name would not tell a file's flags, as <gnomon/build.hpp> wants it.
+[[nodiscard]] inline glm::dmat4 product(const glm::dmat4& a, const glm::dmat4& b) noexcept {
+    const auto column = [&a](const glm::dvec4& v) { return a[0] * v.x + a[1] * v.y + a[2] * v.z + a[3] * v.w; };
+    return {column(b[0]), column(b[1]), column(b[2]), column(b[3])};
+}
+
 /// Volume that the upper left 3x3 gives to the unit cube. Negative where x, y, z of the result are left-handed.
 [[nodiscard]] inline double volume(const glm::dmat4& m) noexcept {
     return glm::dot(glm::cross(glm::dvec3(row(m, 0)), glm::dvec3(row(m, 1))), glm::dvec3(row(m, 2)));

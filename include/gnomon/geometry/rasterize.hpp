@@ -232,7 +232,7 @@ light_footprint rasterize(const triangle_mesh& mesh, const light_frame& light, t
                           const Where& where = {}) {
     target = clip(target, light.size());
     if (target.empty()) return {}; // so is an invalid frame's
-    const glm::dmat4 to_map = light.matrix() * mesh.model;
+    const glm::dmat4 to_map = detail::product(light.matrix(), mesh.model);
     const double handedness = detail::volume(to_map);
 
     detail::touched_texels touched;

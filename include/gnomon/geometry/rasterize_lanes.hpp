@@ -86,7 +86,7 @@ light_footprint rasterize_rows(const triangle_mesh& mesh, const light_frame& lig
                                const Where& where, void* rows, void (*row)(void*, int, int, int, const float*) = nullptr) {
     target = clip(target, light.size());
     if (target.empty()) return {};
-    const glm::dmat4 to_map = light.matrix() * mesh.model;
+    const glm::dmat4 to_map = product(light.matrix(), mesh.model);
     raster_job job{.mesh = &mesh,
                    .light = &light,
                    .to_map = to_map,
