@@ -67,7 +67,7 @@ class soft_shadow_map : public asked_for_shadow<soft_shadow_map<Texel, Kernel, B
     explicit soft_shadow_map(map_size size, Backend run = {})
         : run_(run), casters_({size.width, size.height}, Texel::clear()), soft_({size.width, size.height}, Texel::clear()),
           tiles_({size.width, size.height}, size.tile), filtered_(tiles_.tiles()),
-          scratch_(size.width, detail::bands_of(std::int64_t{casters_.size().width} * casters_.size().height, size.bands)) {}
+          scratch_(size.width, detail::band_count(std::int64_t{casters_.size().width} * casters_.size().height, size.bands)) {}
 
     /// How `shadow` and `receive` decide; no false shadow unless you say otherwise. It knows how often the filter rounds.
     rule decision{.caster = {.roundings = filter_roundings<Texel, Kernel>},

@@ -173,6 +173,28 @@ TEST_CASE_TEMPLATE("lanes filter as the oracle does, in strips as wide as there 
     });
 }
 
+TEST_CASE_TEMPLATE("rows of more channels than an int counts are left to the scalar loop", Texel, rg8, gnomon::rgb8, gnomon::rgba16) {
+    const image<Texel> memory({200, 1}, Texel::caster(0.25f)); // of such a row, and no more is read
+    image<Texel> made({1, 1}, Texel::caster(0.75f));
+    std::vector<gnomon::line_element<Texel>> scratch(4096);
+    for_each_isa([&]<typename Isa>() {
+        const auto of_width = [&]<typename Kernel>(int width) {
+            const image_view<const Texel> row(memory.view().data(), {width, 1});
+            return filtered<Isa, Kernel, Texel>(row, made.view(), {0, 0, 1, 1}, scratch);
+        };
+        constexpr int most = 0x7FFFFFFF / Texel::channels;
+        const Texel before = made(0, 0);
+        for (const int width : {most, most + 1, most / 3 * 4 + 200}) {
+            CAPTURE(width);
+            CHECK_FALSE(of_width.template operator()<box<2>>(width));
+            CHECK_FALSE(of_width.template operator()<binomial<2>>(width));
+            CHECK(made(0, 0) == before);
+        }
+        CHECK(of_width.template operator()<box<2>>(most - (1 << 17)));
+        CHECK(of_width.template operator()<binomial<2>>(most - (1 << 17)));
+    });
+}
+
 TEST_CASE("the scratch of a map has room for whole rows of it, half rows of doubles, and none for more") {
     const auto widest = []<typename Isa, typename Kernel, typename Texel>(int width) {
         using room = gnomon::on_any::filter_room<gnomon::on_any::filter_of<Isa, Kernel, Texel>, Texel>;

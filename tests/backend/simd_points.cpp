@@ -226,7 +226,8 @@ TEST_CASE("lanes blend on maps of 2 to 2^21 texels a side whose offsets fit 32 b
     };
     constexpr int most = 1 << 21;
     for (const int sign : {1, -1}) {
-        CHECK((serves({2, 4}, sign * 0x1FFFFFFF) && !serves({2, 4}, sign * 0x20000000)));
+        CHECK((serves({2, 4}, sign * 0x1FFFFFFE) && !serves({2, 4}, sign * 0x1FFFFFFF)));
+        CHECK((serves({most, 2048}, sign * 0xFF7FF) && !serves({most, 2048}, sign * 0xFF800))); // rows that overlap
         CHECK((serves({2, 2}, sign * 4) && !serves({1, 2}, sign * 4) && !serves({2, 1}, sign * 4)));
         CHECK((serves({most, 2}, sign * 4) && !serves({most + 1, 2}, sign * 4)));
         CHECK((serves({2, most}, sign * 4) && !serves({2, most + 1}, sign * 4)));

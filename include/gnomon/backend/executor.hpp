@@ -37,7 +37,7 @@ namespace detail {
 /// Fewer texels are not worth the handing out.
 inline constexpr int texels_in_a_band = 1 << 14;
 /// Bands of so many texels, no more than `most`.
-[[nodiscard]] constexpr int bands_of(std::int64_t texels, int most) noexcept {
+[[nodiscard]] constexpr int band_count(std::int64_t texels, int most) noexcept {
     return static_cast<int>(lesser<std::int64_t>(texels / texels_in_a_band + 1, most));
 }
 } // namespace detail
@@ -45,7 +45,7 @@ inline constexpr int texels_in_a_band = 1 << 14;
 /// Scratch for a filter that runs in bands: one for each job that is handed out at once. Allocates in its constructor.
 template <texel_format Texel, kernel Kernel> class band_scratch {
   public:
-    /// Several bands a thread even out what threads are kept from; below 1 counts as 1.
+    /// More bands than threads: one that is interrupted then holds up less. Below 1 counts as 1.
     explicit band_scratch(int width, int bands = 32)
         : bands_(static_cast<std::size_t>(greater(bands, 1)), filter_scratch<Texel, Kernel>(width)) {}
     [[nodiscard]] int size() const noexcept { return static_cast<int>(bands_.size()); }
@@ -69,7 +69,7 @@ inline constexpr int rows_in_a_band = 8;
 /// The regions that walk(f) hands out, shared among bands of about the same area.
 template <typename Walk> class band_cut {
   public:
-    band_cut(const Walk& walk, int most) noexcept : walk_(walk), texels_(texels_in(walk)), bands_(bands_of(texels_, most)) {}
+    band_cut(const Walk& walk, int most) noexcept : walk_(walk), texels_(texels_in(walk)), bands_(band_count(texels_, most)) {}
 
     [[nodiscard]] int size() const noexcept { return bands_; }
     /// Calls f(texel_rect) for what belongs to a band: whole rows of a region; each row belongs to one. A band too many has none.
@@ -99,7 +99,7 @@ template <typename Walk> band_cut(const Walk&, int) -> band_cut<Walk>;
 
 } // namespace detail
 
-/// Calls work(y0, y1) for disjoint bands of rows that make up [0, rows), as jobs of an executor: for loops of your own.
+/// Calls work(y0, y1) for disjoint bands of rows that make up [0, rows), `most` of them, as jobs of an executor: for loops of your own.
 template <typename On, typename Work> void in_bands(On&& on, int rows, Work&& work, int most = 64) {
     static_assert(detail::executor_is_callable<On>());
     const int bands = lesser(greater(most, 1), rows);
@@ -120,7 +120,7 @@ void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> fr
 }
 
 /// The next frame: filters what `now` marks into an image that holds what `before` marked, and clears what that leaves behind.
-/// If `now` has another size or tile, all of the map is filtered.
+/// If `now` has another size or tile, all of the map is filtered, unless one of the two marks nothing.
 template <kernel Kernel, texel_format Texel, backend_for<Texel, Kernel> Backend, typename On>
 void refilter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const tile_grid& before,
               const tile_grid& now, band_scratch<Texel, Kernel>& scratch, On&& on) {

@@ -99,15 +99,15 @@ using only_lanes = emulated<16>;
 template <typename F> auto with_lanes(cpu_level, F&& f) noexcept { return f.template operator()<only_lanes>(); }
 #endif
 
-/// Has the processor the lanes that are named? Those it has are always there.
+/// Has the processor the lanes that are named? Those that need no level of it always are.
 template <typename Isa> [[nodiscard]] bool lanes_are_there() noexcept {
     const bool there = level_needed<Isa> == cpu_level::portable || best_lanes() >= level_needed<Isa>;
     GNOMON_ASSERT(there, "gnomon: this processor has no such lanes as are named; ask best_lanes(), or take simd<>");
     return there;
 }
 
-/// f.template operator()<Lanes>() with the lanes that are named, or the processor's own. False, and nothing done, if f says so or the
-/// processor has no such lanes.
+/// f.template operator()<Lanes>() with the lanes that are named, or the processor's own. False, and nothing done, if f says so, if the
+/// processor has no such lanes, or if it is big-endian.
 template <typename Isa, typename F> bool in_lanes(F&& f) noexcept {
     if constexpr (std::endian::native == std::endian::big) // lanes take the first byte of a number for its lowest
         return false;
@@ -122,8 +122,8 @@ template <typename Isa, typename F> bool in_lanes(F&& f) noexcept {
 /// `receive` in lanes, with the same bits: those of the processor, reconstruct(texels, z, intensity), or named ones,
 /// reconstruct<avx2>(...). Rows of any stride, in place too, as in receive/receive.hpp.
 ///
-/// In lanes go depth_mask pairs and those with a contribution: unorm8 and unorm16 with depths and intensities of any kind; half and
-/// float with float intensities. Far bounds, the other representations and channels of a user's go by the scalar loop, and all on a
+/// In lanes go depth_mask pairs: unorm8 and unorm16, with a contribution too, with depths and intensities of any kind; half and float,
+/// without one, with float intensities. Far bounds, the other representations and channels of a user's go by the scalar loop, and all on a
 /// big-endian processor.
 /// \pre the processor has the lanes that are named: ask best_lanes(). Without asserts the scalar loop does it if it has not.
 template <typename Isa = best_isa, texel_row Row, depth_row Depths, intensity_row Intensities>
@@ -142,8 +142,8 @@ void reconstruct(const Row& texels, const Depths& z, Intensities&& intensity, co
 
 /// The same for receivers anywhere: at (x[i], y[i]) in texels, blended from four.
 ///
-/// In lanes go pairs of unorm8 with float intensities or codes of unorm8, on maps of 2 to 2^21 texels a side, for rules of one
-/// rounding; what does not goes by the scalar loop.
+/// In lanes go pairs of unorm8 with float intensities or codes of unorm8, on maps of 2 to 2^21 texels a side and less than 2^31 bytes,
+/// for rules of at most one rounding; what does not goes by the scalar loop.
 template <typename Isa = best_isa, typename T, depth_row Depths, intensity_row Intensities>
     requires texel_format<std::remove_const_t<T>>
 void reconstruct(image_view<T> map, strided_span<const float> x, strided_span<const float> y, const Depths& z,

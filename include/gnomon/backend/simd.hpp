@@ -56,10 +56,12 @@ bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect re
 /// Filters and receives in lanes: simd<> in those the processor has, simd<avx2> and the like in these alone, simd<Yours> in a
 /// simd_isa of your own, which is compiled for what the file is, and not asked whether the processor has it. A name is there on its
 /// own processors: neon on ARM, wasm128 in WebAssembly, the others but emulated on x86. Results are those of `scalar`, bit for bit;
-/// of a NaN in half or float texels only that it is one.
+/// of a NaN in half or float texels only that it is one, and but for half and float pairs of e <= -2^24 m, which no caster is, before
+/// receivers beyond 2^24.
 ///
-/// What lanes do not know is left to `scalar`: channels of a user's, radii beyond 256, maps narrower than a register, and of ratios those
-/// whose sums are not exact in double; of decisions see backend/reconstruct.hpp. Too narrow a scratch only cuts a region into
+/// What lanes do not know is left to `scalar`: channels of a user's, `narrow` kernels, radii beyond 256, maps narrower than a register or
+/// wider than 2^31 channels with what kernels reach beyond, and of ratios those whose sums are not exact in double, far bounds and
+/// contributions; of decisions see backend/reconstruct.hpp. Too narrow a scratch only cuts a region into
 /// strips. A filter takes up to 48 kB of the stack.
 /// \pre the processor has the lanes that are named: ask best_lanes(). Without asserts all is left to `scalar` if it has not. simd<>
 /// has no such condition.

@@ -26,6 +26,10 @@ template <std::uint64_t Divisor, std::uint64_t Codes> struct division {
         largest < (std::uint64_t{1} << 32) && factor < (std::uint64_t{1} << 32) && excess * largest < (std::uint64_t{1} << shift);
 };
 
+/// The sum of a window, divided by its weight.
+template <kernel Kernel, texel_format Texel>
+using mean_of = division<std::uint64_t{Kernel::total} * Kernel::total, static_cast<std::uint64_t>(Texel::channel_type::scale)>;
+
 /// Whole codes under equal weights.
 template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
     using storage = typename Texel::storage;
@@ -35,8 +39,6 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
     static constexpr int strip = piece_bytes / 4 / channels * channels;
     static constexpr int line_size = window + strip + 2 * step;
     static constexpr int texels_of_nothing = (line_size + channels - 1) / channels;
-    using normalised =
-        division<std::uint64_t{Kernel::total} * Kernel::total, static_cast<std::uint64_t>(Texel::channel_type::scale)>;
 
     /// Adds a row to the sums of columns and takes one away.
     static void run(std::uint32_t* sums, const storage* in, const storage* out, int count) noexcept {
@@ -61,10 +63,10 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
     /// Rounded means of windows: what lies between their ends.
     static void divide(const std::uint32_t* first, storage* to, int count) noexcept {
         const ints half = Isa::repeat32(static_cast<std::uint32_t>(Kernel::total) * Kernel::total / 2);
-        const ints factor = Isa::repeat32(static_cast<std::uint32_t>(normalised::factor));
+        const ints factor = Isa::repeat32(static_cast<std::uint32_t>(mean_of<Kernel, Texel>::factor));
         for (int i = 0; i < count; i += step) {
             const ints sum = Isa::subtract32(Isa::load(first + window + i), Isa::load(first + i));
-            Isa::store_low(to + i, Isa::template multiply_shift32<normalised::shift>(Isa::add32(sum, half), factor));
+            Isa::store_low(to + i, Isa::template multiply_shift32<mean_of<Kernel, Texel>::shift>(Isa::add32(sum, half), factor));
         }
     }
 
@@ -83,8 +85,7 @@ template <kernel Kernel, texel_format Texel>
 inline constexpr bool runs_sums = [] {
     if constexpr (Texel::channel_type::whole_codes && Texel::representation_type::premultiplied && Kernel::radius > 0 &&
                   detail::is_box<typename detail::sums<Texel, Kernel>::weights_of>)
-        return division<std::uint64_t{Kernel::total} * Kernel::total,
-                        static_cast<std::uint64_t>(Texel::channel_type::scale)>::exact;
+        return mean_of<Kernel, Texel>::exact;
     else
         return false;
 }();
@@ -125,10 +126,12 @@ void filter_box(image_view<const Texel> from, image_view<Texel> to, texel_rect r
 }
 
 /// filter_region in lanes, for a region within both images. False, and nothing done, without a scratch, which boxes can do without
-/// but `scalar` cannot, and where filter_rows says so.
+/// but `scalar` cannot; where a row with what is read beside it has more channels than an int counts; and where filter_rows says so.
 template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
             std::span<line_element<Texel>> scratch) noexcept {
+    constexpr int widest = (detail::int_max - 4 * strip_bytes) / Texel::channels - 4 * Kernel::radius;
+    if (from.width() > widest) return false;
     if constexpr (runs_sums<Kernel, Texel>) {
         if (scratch.empty()) return false;
         filter_box<Isa, Kernel, Texel>(from, to, region);

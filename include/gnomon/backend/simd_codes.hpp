@@ -89,7 +89,8 @@ template <typename Isa, texel_format Texel> struct byte_decision {
         const ints moved = by.nearer;
         const bool try_quick = by.one_rounding_towards_light;
         for (int i = 0; i < count; i += step)
-            if (!try_quick || !quick(moved, texels + 2 * i, depths + i, to + i)) slow(by, texels + 2 * i, depths + i, to + i);
+            if (const std::uint8_t* const at = texels + std::ptrdiff_t{2} * i; !try_quick || !quick(moved, at, depths + i, to + i))
+                slow(by, at, depths + i, to + i);
     }
 };
 

@@ -16,9 +16,11 @@ template <texel_format Texel>
 inline constexpr bool decidable_pairs = !Texel::effects.far_bound && std::same_as<typename Texel::representation_type, depth_mask>;
 
 /// One register of receivers at a time. A receiver is shadowed iff e > m (1-z), see receive/decide.hpp: of a biased pair and depth, the
-/// sign of a product and a sum, and exact wherever `decided` says that it is. What is left goes by the scalar loop. With float depths
-/// that is no code, and floats only if m <= 2^-50 or z is moved by more than the range; with depths in codes it is one receiver in a
-/// million, and who is moved behind every caster.
+/// sign of a product and a sum, exact wherever one of the functions below says that it is. What is left goes by the scalar loop:
+///
+///     float depths      of unorm nothing; of half and float m <= 2^-50, and z that is moved towards the light by more than the range,
+///                       or lies within 2^-50 of nothing when it has been moved by less than 2^-26
+///     depths in codes   one receiver in a million, m <= 0 (in half and float <= 2^-50), and who is moved behind every caster
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct decision {
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
@@ -72,7 +74,8 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         return shadowed;
     }
     /// For z < 1/2 the same: e-m is exact if m/2 <= e <= 2m, and if e is less, m z < m/2 is less than m-e either way, if more, all from
-    /// z = -1 on are shadowed. Else m (z-1) + e > 0, where z-1 is exact up to 2^24, and beyond that everything is behind every caster.
+    /// z = -1 on are shadowed. Else m (z-1) + e > 0, where z-1 is exact up to 2^24, and beyond that everything is behind every caster
+    /// but those of e <= -2^24 m.
     GNOMON_LANES bool decided_floats(const decision& by, const floats& e, const floats& m, const masks& there, const float* depths,
                                      masks& shadowed) noexcept {
         const floats depth = Isa::load(depths), zero = Isa::repeat(0.0f), half = Isa::repeat(0.5f);

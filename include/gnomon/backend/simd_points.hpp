@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
@@ -55,7 +54,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         constexpr int most = 1 << 21;
         const std::ptrdiff_t row = map.stride() < 0 ? -map.stride() : map.stride();
         return r.caster.roundings <= 1 && map.width() >= 2 && map.height() >= 2 && map.width() <= most && map.height() <= most &&
-               row <= 0x7FFFFFFF / map.height();
+               row <= (0x7FFFFFFF - 2 * map.width()) / map.height();
     }
     [[nodiscard]] static blended_decision of(image_view<const Texel> map, const rule& r) noexcept {
         const biased<> moved = apply<Texel>(r.caster, 0.0, 0.0, 0.0f);
@@ -147,7 +146,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         return true;
     }
     /// The same times 65535, where sums of 2^40 are rounded three times, each time by 2^16 at most: within 2^18 of nothing they say
-    /// nothing. False if a receiver that has a mask lies there, or is moved behind every caster, or its pair beyond nothing.
+    /// nothing. False if a receiver that has a mask lies there, or is moved behind every caster.
     GNOMON_LANES bool decided(const blended_decision& by, const pair& moved, const floats& mask, const std::uint16_t* depths,
                               masks& shadowed) noexcept {
         const floats depth = Isa::add(Isa::template codes_of<unorm16, 1>(depths, 0), by.z);
@@ -203,9 +202,13 @@ bool receive_points(image_view<const Texel> map, strided_span<const float> x, st
     const int count = lesser(lesser(x.size(), y.size()), lesser(z.size(), intensity.size()));
     const bool side_by_side = x.contiguous() && y.contiguous() && z.contiguous() && intensity.contiguous();
     const int together = side_by_side ? count - count % step : 0;
-    if (together > 0) blended::some(by, map, &x[0], &y[0], &z[0], &intensity[0], together, r);
-    for (int i = together; i < count; i += step) {
-        const int here = lesser(step, count - i);
+    constexpr int at_once = 1 << 30; // so that no count overflows
+    for (int i = 0, here; i < together; i += here) {
+        here = lesser(at_once, together - i);
+        blended::some(by, map, &x[i], &y[i], &z[i], &intensity[i], here, r);
+    }
+    for (int i = together, here; i < count; i += here) {
+        here = lesser(step, count - i);
         float px[static_cast<std::size_t>(step)]{}, py[static_cast<std::size_t>(step)]{};
         Depth depth[static_cast<std::size_t>(step)]{};
         Intensity made[static_cast<std::size_t>(step)];

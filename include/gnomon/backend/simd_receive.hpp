@@ -14,7 +14,7 @@
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
-/// What lanes decide: all of it but intensities in codes of half and float texels.
+/// What lanes decide: whole codes, with a contribution too; of half and float pairs with float intensities.
 template <texel_format Texel, typename Depth, typename Intensity>
 inline constexpr bool decided_in_lanes =
     decidable_pairs<Texel> && (Texel::channel_type::whole_codes || (Texel::channels == 2 && std::same_as<Intensity, float>));
@@ -43,8 +43,8 @@ void receive_row(strided_span<const Texel> texels, strided_span<const Depth> z, 
     const bool side_by_side = texels.contiguous() && z.contiguous() && intensity.contiguous();
     const int whole = side_by_side ? count - count % one::step : 0;
     if (whole > 0) one::rows(decide, &texels[0], &z[0], &intensity[0], whole);
-    for (int i = whole; i < count; i += one::step) {
-        const int some = lesser(one::step, count - i);
+    for (int i = whole, some; i < count; i += some) {
+        some = lesser(one::step, count - i);
         Texel texel[static_cast<std::size_t>(one::step)]{};
         Depth depth[static_cast<std::size_t>(one::step)]{};
         Intensity made[static_cast<std::size_t>(one::step)];

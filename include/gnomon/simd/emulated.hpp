@@ -89,7 +89,7 @@ template <int Bytes> struct emulated {
     /// 16 bytes of `low` in turn with 16 of `high`: what low_pairs and high_pairs made, in order again, in two registers.
     [[nodiscard]] static ints first_half(ints low, ints high) noexcept { return in_turn(low, high, 0); }
     [[nodiscard]] static ints second_half(ints low, ints high) noexcept { return in_turn(low, high, Bytes); }
-    /// Downwards.
+    /// 32 bits, signed: divided by 2^Bits, rounded down.
     template <int Bits> [[nodiscard]] static ints shift_right32(ints a) noexcept {
         return each<std::int32_t>([&](int i) { return at<std::int32_t>(a, i) >> Bits; });
     }
@@ -110,8 +110,8 @@ template <int Bytes> struct emulated {
             return total;
         });
     }
-    /// In each 16 bytes, and in order over these: 16 bits 0, 2, 4 and 6 of `a`, then those of `b`; and 1, 3, 5 and 7. Of registers
-    /// that hold pairs, 16 bytes of either in turn, the first numbers and the second ones.
+    /// In each 16 bytes, and in order over these: 16 bits 0, 2, 4 and 6 of `a`, then those of `b`; and 1, 3, 5 and 7. So of what
+    /// even_lanes and odd_lanes make of two registers of pairs all first numbers, and all second ones.
     [[nodiscard]] static ints even_words(ints a, ints b) noexcept { return words(a, b, 0); }
     [[nodiscard]] static ints odd_words(ints a, ints b) noexcept { return words(a, b, 1); }
     /// Of each two groups of 16 bytes the first: of `a`, then of `b`; and the second. (16 bytes: `a`, and `b`.)

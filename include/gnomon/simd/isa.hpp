@@ -7,11 +7,12 @@
 #include <gnomon/simd/neon.hpp>
 #include <gnomon/simd/sse2.hpp>
 #include <gnomon/simd/wasm.hpp>
+#include <gnomon/texel/channel.hpp>
 
 #include <concepts>
 #include <cstdint>
 #include <type_traits>
-#if GNOMON_X86 && defined(_MSC_VER)
+#if GNOMON_X86 && defined(_MSC_VER) && !defined(__clang__)
 #include <intrin.h>
 #elif GNOMON_X86
 #include <cpuid.h>
@@ -46,7 +47,6 @@ concept simd_isa =
         { Isa::high_pairs16(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::first_half(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::second_half(i, i) } -> std::same_as<typename Isa::ints>;
-        { Isa::template shift_right32<16>(i) } -> std::same_as<typename Isa::ints>;
         { Isa::narrow32(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::narrow16(i, i) } -> std::same_as<typename Isa::ints>;
         { Isa::even_words(i, i) } -> std::same_as<typename Isa::ints>;

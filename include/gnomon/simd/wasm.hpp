@@ -7,7 +7,6 @@
 
 #include <concepts>
 #include <cstdint>
-#include <cstring>
 #include <wasm_simd128.h>
 
 namespace gnomon::inline GNOMON_BUILD {
