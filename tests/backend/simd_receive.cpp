@@ -11,9 +11,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -71,6 +73,41 @@ TEST_CASE_TEMPLATE("lanes decide as the oracle does: every width to 67, any stri
             }
         CHECK(wrong == 0);
         CHECK(dark > 1000);
+    });
+}
+
+TEST_CASE_TEMPLATE("lanes decide as the oracle does at every alignment, in floats and in codes", Texel, rg8, gnomon::rg16, gnomon::rga8,
+                   gnomon::rg16f, gnomon::rg32f) {
+    dice roll(406);
+    const auto wrong_in = [&roll]<typename Isa, typename Depth, typename Intensity>(int count, int bytes) {
+        test::past_a_line<Texel> of_texels(bytes, count);
+        test::past_a_line<Depth> of_z((3 * bytes + count) % 64, count);
+        test::past_a_line<Intensity> of_made((5 * bytes + 2 * count) % 64, count);
+        const auto texels = of_texels.elements();
+        const auto z = of_z.elements();
+        const auto made = of_made.elements();
+        std::vector<Intensity> expected(made.size());
+        for (std::size_t i = 0; i < z.size(); ++i) {
+            texels[i] = test::any_caster<Texel>(roll);
+            if constexpr (std::same_as<Depth, float>)
+                z[i] = roll.unit();
+            else
+                z[i] = static_cast<Depth>(roll(0, 65535));
+        }
+        gnomon::receive(texels, z, expected);
+        gnomon::receive(simd<Isa>{}, texels, z, made);
+        const bool same = std::equal(expected.begin(), expected.end(), made.begin());
+        return int{!same} + int{!of_made.is_alone()};
+    };
+    for_each_isa([&]<typename Isa>() {
+        int wrong = 0;
+        test::for_each_alignment([&](int count, int bytes) {
+            wrong += wrong_in.template operator()<Isa, float, float>(count, bytes) +
+                     wrong_in.template operator()<Isa, std::uint16_t, std::uint8_t>(count, bytes) +
+                     wrong_in.template operator()<Isa, std::uint16_t, std::uint16_t>(count, bytes) +
+                     wrong_in.template operator()<Isa, float, std::uint8_t>(count, bytes);
+        });
+        CHECK(wrong == 0);
     });
 }
 

@@ -19,7 +19,7 @@
 #include <utility>
 
 namespace {
-/// A register's worth of bytes, at an odd address.
+/// A register's worth of bytes, every second one at an odd address.
 struct memory {
     unsigned char filler;
     unsigned char byte[64];

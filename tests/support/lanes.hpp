@@ -6,6 +6,13 @@
 
 #include <gnomon/backend/reconstruct.hpp>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
 namespace test {
 
 /// Calls f.template operator()<Isa>(), if that one is asked.
@@ -29,6 +36,36 @@ template <typename F> void for_each_isa(F&& f) {
 #elif GNOMON_WASM
     for_isa<gnomon::wasm128>(f);
 #endif
+}
+
+/// Elements that begin so many bytes past a cache line, as near as they may, in memory that holds something else around them.
+template <typename T> class past_a_line {
+  public:
+    past_a_line(int bytes, int count) : memory_(static_cast<std::size_t>(count) * sizeof(T) + 4 * 64, 0x5A) {
+        const auto begin = (reinterpret_cast<std::uintptr_t>(memory_.data()) + 127) / 64 * 64;
+        data_ = reinterpret_cast<T*>(begin + static_cast<std::size_t>(bytes) / alignof(T) * alignof(T));
+        size_ = static_cast<std::size_t>(count);
+    }
+    [[nodiscard]] std::span<T> elements() noexcept { return {data_, size_}; }
+    /// Is what lies around them as it was?
+    [[nodiscard]] bool is_alone() const noexcept {
+        const auto* const first = reinterpret_cast<const unsigned char*>(data_);
+        const auto untouched = [](const unsigned char* from, const unsigned char* to) {
+            return std::all_of(from, to, [](unsigned char byte) { return byte == 0x5A; });
+        };
+        return untouched(memory_.data(), first) && untouched(first + size_ * sizeof(T), memory_.data() + memory_.size());
+    }
+
+  private:
+    std::vector<unsigned char> memory_;
+    T* data_;
+    std::size_t size_;
+};
+
+/// Calls f(count, bytes) for every count to 67 and every alignment within a cache line, but not for all of each with all of the other.
+template <typename F> void for_each_alignment(F&& f) {
+    for (int count = 0; count <= 67; ++count)
+        for (int bytes = count % 9 == 0 ? 0 : count % 17; bytes < 64; bytes += count % 9 == 0 ? 1 : 17) f(count, bytes);
 }
 
 /// Lanes that count what they are asked to do.
