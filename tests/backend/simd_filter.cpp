@@ -444,7 +444,8 @@ TEST_CASE("lanes add rows to the sums of columns a register at a time, and what 
 }
 
 TEST_CASE(
-    "results of 16 MiB and more go past the caches, and maps of 4 MiB are called for ahead of time, of 1 MiB by narrow regions") {
+    "results of 16 MiB and more go past the caches, in bands too, and maps of 4 MiB are called for ahead of time, of 1 MiB by narrow "
+    "regions") {
     using kernel = gnomon::fast<box<0>>;
     const image<gnomon::rg32f> map({2048, 1024}, gnomon::rg32f::clear());
     image<gnomon::rg32f> made(map.size());
@@ -456,7 +457,11 @@ TEST_CASE(
     filter(whole(map.size()), {0, 0, 2048, 1024});
     CHECK(test::counted_lanes::streams == 2048 * 1024 * 8 / 16);
     CHECK(test::counted_lanes::fences == 1);
-    filter(whole(map.size()), {0, 0, 2048, 1023});
+    filter(whole(map.size()), {0, 512, 2048, 515});
+    CHECK((test::counted_lanes::streams == 2048 * 3 * 8 / 16 && test::counted_lanes::fences == 1));
+    filter(whole(map.size()), {1, 0, 2048, 1024});
+    CHECK((test::counted_lanes::streams == 0 && test::counted_lanes::fences == 0));
+    filter({0, 0, 2048, 1023}, {0, 0, 2048, 1023});
     CHECK((test::counted_lanes::streams == 0 && test::counted_lanes::fences == 0));
     const auto called_for = [&](int height, int width) {
         filter({0, 0, 1024, height}, {0, 0, width, 4});

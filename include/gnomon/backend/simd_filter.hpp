@@ -158,7 +158,8 @@ bool filter_rows(image_view<const Texel> from, image_view<Texel> to, texel_rect 
     // Rows of a region narrower than the map are soon over, and no processor foresees where the next ones begin.
     const bool narrow = region.width() < from.width();
     const bool prefetched = bytes_of(from.width(), from.height()) >= (narrow ? prefetched_bytes / 4 : prefetched_bytes);
-    const bool past_caches = bytes_of(region.width(), region.height()) >= streamed_bytes;
+    // Whole rows may be one band of many.
+    const bool past_caches = bytes_of(region.width(), narrow ? region.height() : from.height()) >= streamed_bytes;
     if (region.y0 < Kernel::radius || region.y1 > from.height() - Kernel::radius - 2 * rows_at_once) room.clear_nothing();
     for (int x0 = region.x0 * channels; x0 < region.x1 * channels; x0 += room.strip) {
         const int x1 = lesser(x0 + room.strip, region.x1 * channels), left = x0 - margin, right = x1 + margin;

@@ -16,8 +16,8 @@ namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 /// at a time.
 inline constexpr int rows_at_once = 4, strip_bytes = 32768, piece_bytes = 4096;
 
-/// What is read is called for ahead of time in a map as large as this, and a result as large as that is written past the caches:
-/// both where filtering and receiving together gained by it.
+/// What is read is called for ahead of time in a map as large as this, by narrow regions in one a quarter as large; and a result as
+/// large as that is written past the caches, whole rows if the map is. Both where filtering and receiving together gained by it.
 inline constexpr std::int64_t prefetched_bytes = 4 << 20, streamed_bytes = 16 << 20;
 
 /// Calls for what the next rows hold at `i`, if they are to be called for.
