@@ -40,6 +40,17 @@ std::string complaint() {
 }
 } // namespace
 
+TEST_CASE("a strided_span whose elements are askew is a wrong call") {
+    int memory[6]{};
+    (void)strided_span<int>(memory, 3, 8);
+    (void)strided_span<int>(memory + 5, 3, -8);
+    (void)strided_span<int>(memory, 3, 0);
+    (void)strided_span<char>(reinterpret_cast<char*>(memory), 3, 5);
+    CHECK(complaint() == "");
+    (void)strided_span<int>(memory, 3, 6);
+    CHECK(complaint() == "gnomon: the elements of a strided_span must stay aligned: its stride is in bytes");
+}
+
 TEST_CASE("an image_view without memory, with rows askew or with rows that overlap is a wrong call") {
     int memory[6]{};
     CHECK(image_view<int>(memory, {3, 2}).size() == extent{3, 2});

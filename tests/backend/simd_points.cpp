@@ -178,12 +178,15 @@ TEST_CASE("receivers anywhere: every width to 67, any stride, in place, and on a
                 gnomon::receive(upwards, x, y, z, spread_over(expected.data(), count, of_intensity));
                 gnomon::receive(simd<Isa>{}, upwards, x, y, z, spread_over(made.data(), count, of_intensity));
                 wrong += expected != made;
-                if (of_intensity > 1 || of_y > 1) continue;
-                std::vector<float> in_place = p.y;
-                gnomon::receive(simd<Isa>{}, upwards, x, spread_over(std::as_const(in_place).data(), count, 1), z,
-                                spread_over(in_place.data(), count, 1));
-                wrong += count > 0 &&
-                         std::memcmp(in_place.data(), expected.data(), static_cast<std::size_t>(count) * sizeof(float)) != 0;
+                if (of_x * of_y * of_z * of_intensity > 1) continue;
+                for (int which = 0; which < 3; ++which) {
+                    const float* const from = &(which == 0 ? x : which == 1 ? y : z)[0];
+                    std::vector<float> in_place(from, from + count);
+                    const auto own = spread_over(std::as_const(in_place).data(), count, 1);
+                    gnomon::receive(simd<Isa>{}, upwards, which == 0 ? own : x, which == 1 ? own : y, which == 2 ? own : z,
+                                    spread_over(in_place.data(), count, 1));
+                    wrong += !std::equal(in_place.begin(), in_place.end(), expected.begin());
+                }
             }
         CHECK(wrong == 0);
     });
@@ -227,6 +230,7 @@ TEST_CASE("lanes blend on maps of 2 to 2^21 texels a side whose offsets fit 32 b
     constexpr int most = 1 << 21;
     for (const int sign : {1, -1}) {
         CHECK((serves({2, 4}, sign * 0x1FFFFFFE) && !serves({2, 4}, sign * 0x1FFFFFFF)));
+        CHECK((serves({2, 3}, sign * 0x2AAAAAA9) && !serves({2, 3}, sign * 0x2AAAAAAA)));       // the first is all there is
         CHECK((serves({most, 2048}, sign * 0xFF7FF) && !serves({most, 2048}, sign * 0xFF800))); // rows that overlap
         CHECK((serves({2, 2}, sign * 4) && !serves({1, 2}, sign * 4) && !serves({2, 1}, sign * 4)));
         CHECK((serves({most, 2}, sign * 4) && !serves({most + 1, 2}, sign * 4)));

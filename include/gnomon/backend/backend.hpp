@@ -2,8 +2,10 @@
 #pragma once
 
 #include <gnomon/filter/sparse.hpp>
-#include <gnomon/grid/depth_range.hpp>
+#include <gnomon/grid/tile_grid.hpp>
 #include <gnomon/receive/receive.hpp>
+
+#include <type_traits>
 
 namespace gnomon::inline GNOMON_BUILD {
 

@@ -7,7 +7,9 @@
 #include <gnomon/backend/backend.hpp>
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace gnomon::inline GNOMON_BUILD {

@@ -7,6 +7,7 @@
 
 #include <bit>
 #include <concepts>
+#include <type_traits>
 
 #define GNOMON_ON on_any
 #include <gnomon/backend/simd_receive.hpp>

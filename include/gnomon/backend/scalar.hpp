@@ -3,6 +3,8 @@
 
 #include <gnomon/backend/backend.hpp>
 
+#include <type_traits>
+
 namespace gnomon::inline GNOMON_BUILD {
 
 /// The oracle: plain loops over plain numbers, the same bits on every machine and compiler.

@@ -7,6 +7,7 @@
 
 #include <concepts>
 #include <span>
+#include <type_traits>
 
 #define GNOMON_ON on_any
 #include <gnomon/backend/simd_filter.hpp>

@@ -8,6 +8,7 @@
 #include <gnomon/simd/region.hpp>
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>

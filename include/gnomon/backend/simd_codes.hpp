@@ -5,6 +5,7 @@
 #include <gnomon/simd/region.hpp>
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 
 #ifdef GNOMON_ON
@@ -88,9 +89,10 @@ template <typename Isa, texel_format Texel> struct byte_decision {
         const std::uint8_t* const texels = pairs->stored;
         const ints moved = by.nearer;
         const bool try_quick = by.one_rounding_towards_light;
-        for (int i = 0; i < count; i += step)
-            if (const std::uint8_t* const at = texels + std::ptrdiff_t{2} * i; !try_quick || !quick(moved, at, depths + i, to + i))
-                slow(by, at, depths + i, to + i);
+        for (int i = 0; i < count; i += step) {
+            const std::uint8_t* const at = texels + std::ptrdiff_t{2} * i;
+            if (!try_quick || !quick(moved, at, depths + i, to + i)) slow(by, at, depths + i, to + i);
+        }
     }
 };
 
