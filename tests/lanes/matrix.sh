@@ -46,7 +46,9 @@ geometry-fused   | geometry/ with fused multiply-adds: the lines called exact mu
 fast-math        | what -ffast-math is made of must be refused; and what it would change
 can-fail         | four copies of the library, each with one thing broken: a line must change
 tests-gcc-O2     | the tests of texel/, filter/, receive/, simd/ and backend/ themselves, optimised as users have it
-tests-aarch64    | the tests of texel/, filter/ and receive/ themselves, on 64-bit ARM
+tests-nehalem    | those of simd/ and backend/ on a processor without AVX
+tests-haswell    | and on one with AVX2
+tests-aarch64    | those of tests-gcc-O2 on 64-bit ARM
 tests-s390x      | those of texel/, filter/ and receive/ on a big-endian processor
 tests-wasm       | those of simd/ and backend/ in WebAssembly, with its vectors
 TABLE
@@ -240,6 +242,8 @@ TABLE
 row_tests_gcc_O2() {
     test_row "$1" "texel filter receive simd backend" g++ "g++ -O2" ""
 }
+row_tests_nehalem() { test_row "$1" "simd backend" g++ "g++ -O1" "qemu-x86_64 -cpu Nehalem"; }
+row_tests_haswell() { test_row "$1" "simd backend" g++ "g++ -O1" "qemu-x86_64 -cpu Haswell"; }
 row_tests_aarch64() {
     test_row "$1" "texel filter receive simd backend" "g++-aarch64-linux-gnu" "aarch64-linux-gnu-g++ -O2" "qemu-aarch64 -L /usr/aarch64-linux-gnu"
 }
