@@ -3,6 +3,7 @@
 // Names are WHAT/u8x2/k9/1024, the map is cut into 32 x 32 tiles, and all run in one process:
 //     dense            the whole map
 //     10pct, 50pct     of the tiles hold casters; the counter `area` is the share of the map within the radius of these
+//     85pct            the same where that share is nearly so large (filter/sparse.hpp) that all of the map is filtered instead
 //     frame.10pct ...  a frame of a soft_shadow_map where everything moved by half a tile: clear, mark, filter
 //     empty            a frame without casters
 // With .avx2 behind WHAT it is simd<avx2>.
@@ -54,7 +55,7 @@ template <typename Isa> void add_all(const std::string& suffix) {
             benchmark::ClobberMemory();
         }
     });
-    for (const int percent : {10, 50}) {
+    for (const int percent : {10, 50, 85}) {
         const std::string what = std::to_string(percent) + "pct" + suffix;
         add(what, [percent](benchmark::State& state) {
             scene some(percent);

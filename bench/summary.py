@@ -49,7 +49,8 @@ def filters(path):
     for what, suffix in (("box", ""), ("box.avx2", ".avx2")):
         narrow, wide = (time.get(f"{what}/u8x2/k{taps}/1024") for taps in (3, 65))
         if narrow and wide:
-            ratios[f"filter.box.u8x2.r32.over_r1{suffix}"] = wide / narrow
+            for exactly in ("", ".exact"):  # a box is exact either way
+                ratios[f"filter.box.u8x2.r32.over_r1{exactly}{suffix}"] = wide / narrow
             if theirs := time.get("boxcv/u8x2/k65/1024"):
                 ratios[f"filter.box.u8x2.r32.vs_opencv{suffix}"] = theirs / wide
     return ratios
@@ -110,6 +111,8 @@ def sparses(path):
         for share in ("10pct", "50pct"):
             ideal = dense * area[f"{share}{suffix}{of}"]
             ratios[f"sparse.u8x2.{share}.over_ideal{suffix}"] = time[f"{share}{suffix}{of}"] / ideal
+        if parts := time.get(f"85pct{suffix}{of}"):
+            ratios[f"sparse.u8x2.85pct.of_dense{suffix}"] = parts / dense
         ratios[f"sparse.empty.of_dense{suffix}"] = time[f"empty{suffix}{of}"] / dense
     return ratios
 
@@ -132,8 +135,9 @@ def threads(path):
     runs = json.loads(pathlib.Path(path).read_text())["benchmarks"]
     time = {run["run_name"]: run["real_time"] for run in runs if run.get("aggregate_name") == "median"}
     of = "u8x2/k9/1024/real_time"
-    return {("threads2.scaling" if what == "filter" else f"threads2.{what}.scaling"): time[f"{what}/1/{of}"] / time[f"{what}/2/{of}"]
-            for what in ("filter", "sparse", "receive")}
+    return {("threads2" if what == "filter" else f"threads2.{what}") + f".scaling{suffix}":
+            time[f"{what}{suffix}/1/{of}"] / time[f"{what}{suffix}/2/{of}"]
+            for what in ("filter", "sparse", "receive") for suffix in ("", ".avx2") if f"{what}{suffix}/1/{of}" in time}
 
 
 def flags(path):

@@ -3,6 +3,7 @@
 // Names are WHAT/THREADS/u8x2/k9/1024/real_time; WHAT is
 //     filter, sparse   the whole map, and half of it in tiles
 //     receive          an image of receivers, one to one
+// With .avx2 behind WHAT it is simd<avx2>.
 #include "../examples/jthread_pool.hpp"
 
 #include <gnomon/backend/executor.hpp>
@@ -38,9 +39,9 @@ struct scene {
     }
 };
 
-template <typename Work> void add(const char* what, Work work) {
+template <typename Work> void add(const std::string& what, Work work) {
     for (const unsigned threads : {1u, 2u}) {
-        const std::string name = std::string(what) + "/" + std::to_string(threads) + "/u8x2/k9/1024";
+        const std::string name = what + "/" + std::to_string(threads) + "/u8x2/k9/1024";
         benchmark::RegisterBenchmark(name.c_str(), [work, threads](benchmark::State& state) {
             scene s;
             jthread_pool pool(threads);
@@ -51,15 +52,23 @@ template <typename Work> void add(const char* what, Work work) {
         })->UseRealTime();
     }
 }
+
+template <typename Isa> void add_all(const std::string& suffix) {
+    static constexpr simd<Isa> run;
+    add("filter" + suffix,
+        [](scene& s, jthread_pool& pool) { filter(run, s.casters.view(), s.soft.view(), whole(size), s.scratch, pool); });
+    add("sparse" + suffix,
+        [](scene& s, jthread_pool& pool) { filter(run, s.casters.view(), s.soft.view(), s.tiles, s.scratch, pool); });
+    add("receive" + suffix,
+        [](scene& s, jthread_pool& pool) { receive(run, s.soft.view(), s.z.view(), s.intensity.view(), {}, pool); });
+}
 } // namespace
 
 int main(int count, char** words) {
-    add("filter",
-        [](scene& s, jthread_pool& pool) { filter(simd<>{}, s.casters.view(), s.soft.view(), whole(size), s.scratch, pool); });
-    add("sparse",
-        [](scene& s, jthread_pool& pool) { filter(simd<>{}, s.casters.view(), s.soft.view(), s.tiles, s.scratch, pool); });
-    add("receive",
-        [](scene& s, jthread_pool& pool) { receive(simd<>{}, s.soft.view(), s.z.view(), s.intensity.view(), {}, pool); });
+    add_all<best_isa>("");
+#if GNOMON_X86
+    if (best_lanes() >= cpu_level::avx2) add_all<avx2>(".avx2");
+#endif
     benchmark::Initialize(&count, words);
     if (benchmark::ReportUnrecognizedArguments(count, words)) return 1;
     benchmark::RunSpecifiedBenchmarks();
