@@ -1,4 +1,8 @@
 // Constructors allocate and nothing else does.
+#include <gnomon/backend/executor.hpp>
+#include <gnomon/backend/simd.hpp>
+#include <gnomon/geometry/directional_light.hpp>
+#include <gnomon/geometry/rasterize_lanes.hpp>
 #include <gnomon/grid/reference_grid.hpp>
 #include <gnomon/soft_shadow_map.hpp>
 
@@ -7,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 using test::allocations_in;
@@ -58,6 +63,48 @@ TEST_CASE("the stages allocate nothing: filter a region, filter what is marked, 
               gnomon::receive(soft.view(), z.view().row_span(0), z.view().row_span(1), z.view().row_span(2),
                               intensity.view().row_span(3));
           }) == 0);
+}
+
+TEST_CASE_TEMPLATE("the stages allocate nothing in lanes: blurs and boxes, of a map, of what is marked and in bands, and decisions",
+                   Texel, gnomon::rg8, gnomon::rg16, gnomon::rgb8, gnomon::rg32f) {
+    const gnomon::simd<> run;
+    gnomon::image<Texel> casters({90, 70}, Texel::caster(0.5f)), soft({90, 70});
+    gnomon::filter_scratch<Texel, gnomon::fast<gnomon::gaussian<8>>> scratch(90);
+    gnomon::filter_scratch<Texel, gnomon::box<5>> box_scratch(90);
+    gnomon::band_scratch<Texel, gnomon::box<5>> bands(90, 3);
+    gnomon::tile_grid before({90, 70}, 16), now({90, 70}, 16);
+    before.mark({60, 50, 80, 60}, 8);
+    now.mark({20, 20, 40, 40}, 8);
+    const gnomon::image<float> z({90, 70}, 0.9f);
+    gnomon::image<float> intensity({90, 70});
+    CHECK(allocations_in([&] {
+              run.filter_region(casters.view(), soft.view(), whole(soft.size()), scratch);
+              run.filter_region(casters.view(), soft.view(), whole(soft.size()), box_scratch);
+              gnomon::filter(run, casters.view(), soft.view(), now, scratch);
+              gnomon::refilter(run, casters.view(), soft.view(), before, now, bands, gnomon::sequential{});
+              gnomon::receive(run, soft.view().row_span(0), z.view().row_span(0), intensity.view().row_span(0));
+              gnomon::receive(run, soft.view(), z.view().row_span(0), z.view().row_span(1), z.view().row_span(2),
+                              intensity.view().row_span(3));
+          }) == 0);
+    CHECK(intensity(30, 0) >= 0.0f);
+}
+
+TEST_CASE("triangles allocate nothing, one by one or in lanes") {
+    const std::vector<glm::vec3> corners{{-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}};
+    const std::vector<std::uint32_t> triangles{0, 2, 1, 0, 3, 2};
+    gnomon::image<gnomon::rgb16> map({64, 64}, gnomon::rgb16::clear());
+    gnomon::directional_light sun({0.0, -1.0, 0.0});
+    sun.add_caster(gnomon::bounding_box{{-1, 1, -1}, {1, 1, 1}});
+    sun.add_receiver(gnomon::bounding_box{{-2, 0, -2}, {2, 0, 2}});
+    const gnomon::triangle_mesh mesh{corners, triangles};
+    int touched = 0;
+    CHECK(allocations_in([&] {
+              const gnomon::light_frame light = sun.frame(map.size(), 3);
+              touched += cast_triangles(gnomon::scalar{}, map.view(), mesh, light).texels.width();
+              touched += cast_triangles(gnomon::simd<>{}, map.view(), mesh, light).texels.width();
+              touched += bound_triangles(gnomon::simd<>{}, map.view(), mesh, light, gnomon::faces::both).texels.width();
+          }) == 0);
+    CHECK(touched > 0);
 }
 
 TEST_CASE("a whole frame of the facade allocates nothing, nor does the next") {

@@ -178,6 +178,30 @@ TEST_CASE_TEMPLATE("fast, a float is within its roundings of the convolution, an
     try_kernel.template operator()<tent<12>>(); // 1/13^4 is no float
 }
 
+TEST_CASE("fast, a half is within half a step of the convolution and what floats round, and now and then not the nearest half") {
+    dice roll(708);
+    const auto try_kernel = [&]<typename Kernel>() {
+        const auto from = test::noise<rg16f>(roll, {97, 81}, 2);
+        const auto to = test::dense<fast<Kernel>>(from);
+        const test::taps k = test::taps_of<Kernel>();
+        long double worst = 0; // in half steps of a normal half
+        for_each_texel(whole(from.size()), [&](int x, int y) {
+            for (int c = 0; c < rg16f::channels; ++c) {
+                const long double exact = test::convolved<long double>(from, k, x, y, c) / k.total / k.total;
+                const long double error = std::fabs(static_cast<long double>(half16::code(to(x, y).stored[c])) - exact);
+                if (exact > 0x1p-14L) worst = std::max(worst, error / std::exp2(std::floor(std::log2(exact)) - 11.0L));
+            }
+        });
+        CAPTURE(Kernel::radius);
+        CHECK(worst <= 1.0L + (2 * (Kernel::radius + 2) + 2) * 0x1p-12L);
+        CHECK(worst > 0.99L);
+        return differing(to, test::dense<Kernel>(from));
+    };
+    CHECK(try_kernel.template operator()<gaussian<2>>() + try_kernel.template operator()<box<4>>() +
+              try_kernel.template operator()<tent<12>>() >
+          0);
+}
+
 TEST_CASE_TEMPLATE("fast, clear stays clear, a uniform region of whole codes stays itself, and e <= m everywhere", Texel, rg8, rgb8,
                    rg16, rgba16, rg16f, rgb32f) {
     using kernel = fast<gaussian<3>>;
