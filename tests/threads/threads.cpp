@@ -5,6 +5,7 @@
 #include <gnomon/receive/lightmap.hpp>
 #include <gnomon/soft_shadow_map.hpp>
 
+#include "../../examples/jthread_pool.hpp"
 #include "../support/bits.hpp"
 #include "../support/filtering.hpp"
 #include "../support/formats.hpp"
@@ -141,7 +142,8 @@ TEST_CASE_TEMPLATE("frames that are filtered on any number of threads, in any nu
                    Backend, gnomon::scalar, gnomon::simd<>) {
     using kernel = gnomon::binomial<4>;
     constexpr extent large{460, 301};
-    for (const int threads : thread_counts)
+    for (const int threads : thread_counts) {
+        jthread_pool pool(static_cast<unsigned>(threads)); // the example's, which waits for frames
         for (const int bands : {1, 5, 16}) {
             test::dice roll(23);
             gnomon::soft_shadow_map<gnomon::rg8, kernel, Backend> map({large.width, large.height, 16, bands}),
@@ -155,11 +157,15 @@ TEST_CASE_TEMPLATE("frames that are filtered on any number of threads, in any nu
                     map.cast(r, s);
                     alone.cast(r, s);
                 }
-                map.filter(on_threads{threads});
+                if (frame % 2 == 0)
+                    map.filter(pool);
+                else
+                    map.filter(on_threads{threads});
                 alone.filter();
                 CHECK(test::differences<gnomon::rg8>(map.soft(), alone.soft(), whole(large)) == 0);
             }
         }
+    }
 }
 
 TEST_CASE("a whole map filtered, and an image of receivers decided, on any number of threads have the bits of one") {
