@@ -3,7 +3,7 @@
 // Names are WHAT/FORMAT/kTAPS/SIZE, and all run in one process, so that their ratios mean something: bench/run prints these.
 //     fast, exact               simd<>, fast<gaussian> and gaussian
 //     fast.avx2, exact.avx2     simd<avx2>
-//     box, box.avx2             the same of a box, 8-bit only; its peer is boxcv, cv::boxFilter
+//     box, box.avx2             the same of a box, of bytes and of floats; its peer is boxcv, cv::boxFilter
 //     blur, sep                 cv::GaussianBlur and cv::sepFilter2D in one thread, if CMake found OpenCV
 //     copy, stream              the floor: memcpy of the same bytes, and reading with stores that pass the caches by (kTAPS is k0)
 //     work, work.avx2           the other floor: the products of fast, or of floats the sums, in registers and nothing else; k5 and k9
@@ -49,7 +49,7 @@ template <typename F> void add(const std::string& what, const char* of, int taps
     });
 }
 
-/// Half the texels hold casters: in lanes time does not depend on what a map holds.
+/// Half the texels hold casters, at depths that are floats, as boxes of floats want them: else no time depends on what a map holds.
 template <typename Texel> image<Texel> discs(int size) {
     image<Texel> map({size, size}, Texel::clear());
     for (int y = 0; y < size; ++y)
@@ -136,13 +136,13 @@ template <typename Isa, typename Texel> void add_work(const std::string& what, i
 #endif
 
 /// Boxes: box and box.avx2, and OpenCV's.
-template <kernel Kernel> void add_box(int size) {
-    add_ours<best_isa, Kernel, rg8>("box", size);
+template <kernel Kernel, typename Texel> void add_box(int size) {
+    add_ours<best_isa, Kernel, Texel>("box", size);
 #if GNOMON_X86
-    if (best_lanes() >= cpu_level::avx2) add_ours<avx2, Kernel, rg8>("box.avx2", size);
+    if (best_lanes() >= cpu_level::avx2) add_ours<avx2, Kernel, Texel>("box.avx2", size);
 #endif
 #if GNOMON_BENCH_OPENCV
-    add_cv<rg8, 2 * Kernel::radius + 1>("boxcv", size, [](const cv::Mat& from, cv::Mat& to) {
+    add_cv<Texel, 2 * Kernel::radius + 1>("boxcv", size, [](const cv::Mat& from, cv::Mat& to) {
         constexpr int taps = 2 * Kernel::radius + 1;
         cv::boxFilter(from, to, -1, {taps, taps}, {-1, -1}, true, cv::BORDER_CONSTANT);
     });
@@ -181,9 +181,11 @@ int main(int count, char** words) {
     add_format<rg16>();
     add_format<rg32f>();
     for (const int size : sizes) {
-        add_box<box<1>>(size);
-        add_box<box<4>>(size);
-        add_box<box<32>>(size);
+        add_box<box<1>, rg8>(size);
+        add_box<box<4>, rg8>(size);
+        add_box<box<32>, rg8>(size);
+        add_box<box<8>, rg32f>(size);
+        add_box<box<32>, rg32f>(size);
     }
     benchmark::Initialize(&count, words);
     if (benchmark::ReportUnrecognizedArguments(count, words)) return 1;

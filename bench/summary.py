@@ -53,6 +53,10 @@ def filters(path):
                 ratios[f"filter.box.u8x2.r32.over_r1{exactly}{suffix}"] = wide / narrow
             if theirs := time.get("boxcv/u8x2/k65/1024"):
                 ratios[f"filter.box.u8x2.r32.vs_opencv{suffix}"] = theirs / wide
+        if wide := time.get(f"{what}/f32x2/k65/1024"):
+            ratios[f"filter.box.f32x2.r32.over_r8{suffix}"] = wide / time[f"{what}/f32x2/k17/1024"]
+            if theirs := time.get("boxcv/f32x2/k65/1024"):
+                ratios[f"filter.box.f32x2.r32.vs_opencv{suffix}"] = theirs / wide
     return ratios
 
 

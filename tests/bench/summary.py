@@ -14,7 +14,8 @@ TIMES = {
         "fast/u8x2/k3/256": 2, "blur/u8x2/k3/256": 2, "sep/u8x2/k3/256": 3,  # of the mean alone
         "fast/u8x2/k33/1024": 5, "blur/u8x2/k33/1024": 45, "sep/u8x2/k33/1024": 50,  # not of it
         "fast/f32x2/k5/1024": 8, "copy/f32x2/k0/1024": 6, "stream/f32x2/k0/1024": 7,  # nobody measured OpenCV
-        "box/u8x2/k3/1024": 10, "box/u8x2/k65/1024": 12, "boxcv/u8x2/k65/1024": 30, "box.avx2/u8x2/k3/1024": 10,
+        "box/u8x2/k3/1024": 10, "box/u8x2/k65/1024": 12, "boxcv/u8x2/k65/1024": 30, "box/f32x2/k17/1024": 20, "box/f32x2/k65/1024": 25, "boxcv/f32x2/k65/1024": 75,
+        "box.avx2/u8x2/k3/1024": 10,
     },
     "receive": {
         "simd/u8x2.z16/128": 4, "simd.avx2/u8x2.z16/128": 5, "copy/u8x2.z16/128": 3, "scalar/u8x2.z16/128": 40,
@@ -41,6 +42,7 @@ EXPECTED = {
     "filter.u8x2.geomean.vs_opencv": 2, "filter.u8x2.geomean.vs_opencv.avx2": 2, "filter.u8x2.geomean.vs_opencv.exact": 0.5,
     "filter.u8x2.geomean.vs_opencv.exact.avx2": 0.25, "filter.u8x2.k33.vs_opencv": 9, "filter.u8x2.k33.of_floor": 0.1,
     "filter.f32x2.k5.of_floor": 0.75, "filter.box.u8x2.r32.over_r1": 1.2, "filter.box.u8x2.r32.over_r1.exact": 1.2, "filter.box.u8x2.r32.vs_opencv": 2.5,
+    "filter.box.f32x2.r32.over_r8": 1.25, "filter.box.f32x2.r32.vs_opencv": 3,
     "receive.u8x2.z16.of_copy_l2": 0.75, "receive.u8x2.z16.of_copy_l2.avx2": 0.6, "receive.u8x2.z16.vs_scalar_l2": 10,
     "receive.u8x2.z16.vs_scalar_l2.avx2": 8, "receive.u8x2.z16.of_copy_dram": 0.9, "receive.f32x2.vs_opencv": 12,
     "receive.f32x2.vs_opencv_l3": 4, "receive.bilinear.u8x2.of_gather": 0.7, "receive.bilinear.u8x2.of_gather_l2.avx2": 0.6,
