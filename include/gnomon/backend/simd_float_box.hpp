@@ -13,8 +13,8 @@
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
-/// Half and float under equal weights. Multiples of 2^-24 in [0, 1] are all halves there, and what casters of float depths are stored
-/// as. Of (2R+1)^2 of them a double holds any sum, for R up to 256, and a line's 36 bits hold those of 2R+1: so sums may run, and have
+/// Half and float under equal weights. Multiples of 2^-24 in [0, 1] are all halves there, and what opaque casters at float depths are
+/// stored as. Of (2R+1)^2 of them a double holds any sum, for R up to 256, and a line's 36 bits hold those of 2R+1: so sums may run, and have
 /// the bits of any other order.
 template <typename Isa, kernel Kernel, texel_format Texel> struct float_box {
     using channel_type = typename Texel::channel_type;
