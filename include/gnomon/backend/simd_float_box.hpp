@@ -4,7 +4,7 @@
 #include <gnomon/filter/separable.hpp>
 #include <gnomon/simd/region.hpp>
 
-#include <cmath>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -51,8 +51,9 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct float_box {
         Isa::store(ends + at_once, most);
         for (const std::int32_t each : ends) other |= each < 0 || each > (halves ? 0x3C00 : 0x3F800000);
         for (; i < count; ++i) {
-            const float code = channel_type::code(row[i]), scaled = code * 0x1p24f;
-            other |= !(code >= 0.0f && code <= 1.0f) || std::signbit(code) || scaled > std::floor(scaled);
+            const float code = channel_type::code(row[i]);
+            const float scaled = std::bit_cast<std::uint32_t>(code) <= 0x3F800000 ? code * 0x1p24f : 0.5f;
+            other |= scaled > static_cast<float>(static_cast<std::int32_t>(scaled));
         }
         return !other;
     }

@@ -4,7 +4,7 @@
 #include <gnomon/geometry/bounds.hpp>
 #include <gnomon/geometry/light_frame.hpp>
 
-#include <glm/common.hpp>
+#include <cmath>
 
 namespace gnomon::inline GNOMON_BUILD {
 
