@@ -76,8 +76,8 @@ TEST_CASE_TEMPLATE("lanes decide as the oracle does: every width to 67, any stri
     });
 }
 
-TEST_CASE_TEMPLATE("lanes decide as the oracle does at every alignment, in floats and in codes", Texel, rg8, gnomon::rg16, gnomon::rga8,
-                   gnomon::rg16f, gnomon::rg32f) {
+TEST_CASE_TEMPLATE("lanes decide as the oracle does at every alignment, in floats and in codes", Texel, rg8, gnomon::rg16,
+                   gnomon::rga8, gnomon::rg16f, gnomon::rg32f) {
     dice roll(406);
     const auto wrong_in = [&roll]<typename Isa, typename Depth, typename Intensity>(int count, int bytes) {
         test::past_a_line<Texel> of_texels(bytes, count);

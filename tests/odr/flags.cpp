@@ -33,7 +33,8 @@ template <typename Backend> std::uint32_t triangles_under(const gnomon::light_fr
 }
 
 template <typename Backend> std::uint32_t triangles_in_light() {
-    const gnomon::spot_light lamp{.position = {0, 4, 0}, .direction = {0, -1, 0}, .outer_angle = 0.7, .near_plane = 1, .far_plane = 9};
+    const gnomon::spot_light lamp{
+        .position = {0, 4, 0}, .direction = {0, -1, 0}, .outer_angle = 0.7, .near_plane = 1, .far_plane = 9};
     gnomon::directional_light sun({0.25, -1.0, 0.5});
     sun.add_caster(gnomon::bounding_box{{-1, 1, -1}, {1, 2, 1}});
     sun.add_receiver(gnomon::bounding_box{{-5, 0, -5}, {5, 0, 5}});

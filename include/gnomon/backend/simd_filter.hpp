@@ -27,8 +27,8 @@ inline constexpr bool filtered_in_lanes = [] {
     using by = detail::sums<Texel, Kernel>;
     constexpr double total = by::weights_of::total;
     constexpr bool exact = Texel::channels == 2 && Texel::linear_scale * total * total < 0x1p53;
-    constexpr bool known = Kernel::radius <= 256 && !detail::is_narrow<Kernel> &&
-                           !(by::stored_between && is_one_tap<typename by::weights_of>);
+    constexpr bool known =
+        Kernel::radius <= 256 && !detail::is_narrow<Kernel> && !(by::stored_between && is_one_tap<typename by::weights_of>);
     return known && (Texel::representation_type::premultiplied || exact);
 }();
 

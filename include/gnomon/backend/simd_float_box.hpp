@@ -14,8 +14,8 @@
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
 /// Half and float under equal weights. Multiples of 2^-24 in [0, 1] are all halves there, and what opaque casters at float depths are
-/// stored as. Of (2R+1)^2 of them a double holds any sum, for R up to 256, and a line's 36 bits hold those of 2R+1: so sums may run, and have
-/// the bits of any other order.
+/// stored as. Of (2R+1)^2 of them a double holds any sum, for R up to 256, and a line's 36 bits hold those of 2R+1: so sums may run,
+/// and have the bits of any other order.
 template <typename Isa, kernel Kernel, texel_format Texel> struct float_box {
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
@@ -100,8 +100,8 @@ inline constexpr bool runs_in_doubles = [] {
            Kernel::radius >= 8 && Kernel::radius <= 256;
 }();
 
-/// filter_region for such a box, for a region within both images. False, with part of it written, where a number is met that sums do not
-/// run over.
+/// filter_region for such a box, for a region within both images. False, with part of it written, where a number is met that sums do
+/// not run over.
 template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter_float_box(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
     using pass = float_box<Isa, Kernel, Texel>;

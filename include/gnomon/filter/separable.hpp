@@ -136,7 +136,9 @@ void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) no
     for (int x = 0; x < width; ++x) {
         wide sum[static_cast<std::size_t>(channels)];
         for (int c = 0; c < channels; ++c) {
-            const auto tap = [&](int i) { return static_cast<wide>(line[static_cast<std::size_t>((std::int64_t{x} + i) * channels + c)]); };
+            const auto tap = [&](int i) {
+                return static_cast<wide>(line[static_cast<std::size_t>((std::int64_t{x} + i) * channels + c)]);
+            };
             sum[c] = by::product(by::template weight<wide>(Kernel::radius), tap(Kernel::radius));
             for (int i = 1; i <= Kernel::radius; ++i)
                 sum[c] = by::add(sum[c], by::template weight<wide>(Kernel::radius + i), tap(Kernel::radius - i),
