@@ -119,10 +119,11 @@ bool filter_float_box(image_view<const Texel> from, image_view<Texel> to, texel_
     for (int x0 = region.x0 * channels; x0 < region.x1 * channels; x0 += pass::strip) {
         const int x1 = lesser(x0 + pass::strip, region.x1 * channels), left = x0 - pass::margin, right = x1 + pass::margin;
         const int first = greater(left, 0), last = greater(lesser(right, row_size), first); // the columns that are there
-        const auto is_there = [&](int y) { return y >= 0 && y < from.height(); };
-        const auto row = [&](int y) { return is_there(y) ? channels_of(from.row(y)) + first : channels_of(nothing); };
+        const auto row = [&](int y) {
+            return y >= 0 && y < from.height() ? channels_of(from.row(y)) + first : channels_of(nothing);
+        };
         const auto step_to = [&](int y, const storage* out) {
-            if (is_there(y) && !pass::is_summable(row(y), last - first)) return false;
+            if (!pass::is_summable(row(y), last - first)) return false;
             pass::run(sums + (first - left), row(y), out, last - first);
             return true;
         };
