@@ -38,7 +38,7 @@ template <typename Texel> image<Texel> casters(dice& roll, gnomon::extent size) 
     return map;
 }
 
-/// Did sums run? And the texels, within `region` of what held something else, that are not the oracle's.
+/// Did sums run?
 template <typename Isa, typename Kernel, typename Texel>
 bool runs(image_view<const Texel> from, image_view<Texel> to, texel_rect region) {
     return gnomon::detail::in_lanes<Isa>([&]<typename Lanes>() {
@@ -48,6 +48,7 @@ bool runs(image_view<const Texel> from, image_view<Texel> to, texel_rect region)
             return gnomon::on_any::filter_float_box<gnomon::emulated<32>, Kernel>(from, to, region);
     });
 }
+/// Texels that are not the oracle's, in `region` and, of images that held something else, beside it.
 template <typename Isa, typename Kernel, typename Texel> int differing(image_view<const Texel> from, texel_rect region) {
     image<Texel> expected(from.size(), Texel::caster(0.25f)), made(from.size(), Texel::caster(0.25f));
     filter_scratch<Texel, Kernel> scratch(from.size().width);

@@ -178,8 +178,8 @@ TEST_CASE("receivers anywhere: every width to 67, any stride, in place, and on a
                 gnomon::receive(upwards, x, y, z, spread_over(expected.data(), count, of_intensity));
                 gnomon::receive(simd<Isa>{}, upwards, x, y, z, spread_over(made.data(), count, of_intensity));
                 wrong += expected != made;
-                if (of_x * of_y * of_z * of_intensity > 1) continue;
                 for (int which = 0; which < 3; ++which) {
+                    if (of_intensity > 1 || (which == 0 ? of_x : which == 1 ? of_y : of_z) > 1) continue;
                     const float* const from = &(which == 0 ? x : which == 1 ? y : z)[0];
                     std::vector<float> in_place(from, from + count);
                     const auto own = spread_over(std::as_const(in_place).data(), count, 1);
