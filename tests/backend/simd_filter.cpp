@@ -7,15 +7,15 @@
 #include <gnomon/backend/simd_words.hpp>
 
 #include "../support/bits.hpp"
-#include "../support/filtering.hpp"
+#include "../support/kernels.hpp"
 #include "../support/formats.hpp"
 #include "../support/lanes.hpp"
+#include "../support/lanes_filter.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -36,35 +36,11 @@ using gnomon::simd;
 using gnomon::tent;
 using gnomon::texel_rect;
 using test::dice;
+using test::differing;
 using test::fill_with_bits;
 using test::for_each_isa;
 using test::for_each_texel;
-
-/// The same bits, or numbers that are both none.
-template <typename Texel> bool same_texel(const Texel& a, const Texel& b) {
-    for (int c = 0; c < Texel::channels; ++c) {
-        const float x = Texel::channel_type::code(a.stored[c]), y = Texel::channel_type::code(b.stored[c]);
-        if (std::memcmp(&a.stored[c], &b.stored[c], sizeof a.stored[c]) != 0 && !(std::isnan(x) && std::isnan(y))) return false;
-    }
-    return true;
-}
-
-/// Filters a part of an image both ways, into memory and with a scratch that hold something else, and counts what differs anywhere.
-template <typename Isa, gnomon::kernel Kernel, typename Texel>
-int differing(image_view<const Texel> from, texel_rect region, int scratch_width) {
-    image<Texel> expected(from.size(), Texel::caster(0.25f)), made(from.size(), Texel::caster(0.25f));
-    filter_scratch<Texel, Kernel> scratch(from.size().width), given(scratch_width);
-    gnomon::filter_region(from, expected.view(), region, scratch);
-    if (!given.line().empty()) std::memset(given.line().data(), 0x5A, given.line().size_bytes());
-    simd<Isa>{}.filter_region(from, made.view(), region, given);
-    int n = 0;
-    for_each_texel(whole(from.size()), [&](int x, int y) { n += !same_texel(expected(x, y), made(x, y)); });
-    return n;
-}
-
-template <typename Isa, gnomon::kernel Kernel, typename Texel> int differing(image_view<const Texel> from, texel_rect region) {
-    return differing<Isa, Kernel>(from, region, from.size().width);
-}
+using test::same_texel;
 
 /// Do the lanes of a name say that they filtered?
 template <typename Isa, gnomon::kernel Kernel, typename Texel>
@@ -473,18 +449,21 @@ TEST_CASE("results of 16 MiB and more go past the caches, in bands too, and maps
 }
 
 namespace {
+template <typename Box, typename Texel> constexpr std::size_t bytes_of_sums() {
+    return sizeof(Box) + Box::line_size * sizeof(typename Box::sum) + (Box::strip + Box::step) * sizeof(typename Texel::storage) +
+           (Box::line_size / Texel::channels + 1) * sizeof(Texel);
+}
+
 /// Memory of its own that a filter takes: what rows are made in, a column's taps, the rows that are told; or a box's sums.
 template <typename Kernel, typename Texel> constexpr std::size_t bytes_of_stack() {
     using lanes = emulated<64>;
     using storage = typename Texel::storage;
     if constexpr (gnomon::on_any::runs_sums<Kernel, Texel>) {
         using pass = gnomon::on_any::box_filter<lanes, Kernel, Texel>;
-        return (2 * pass::line_size + pass::step) * sizeof(std::uint32_t) + (pass::strip + pass::step) * sizeof(storage) +
-               pass::texels_of_nothing * sizeof(Texel);
+        return bytes_of_sums<pass, Texel>();
     } else if constexpr (gnomon::on_any::runs_in_doubles<Kernel, Texel>) { // before the others, which take no more
         using pass = gnomon::on_any::float_box<lanes, Kernel, Texel>;
-        return (pass::line_size + pass::strip + pass::step) * sizeof(double) + (pass::strip + pass::step) * sizeof(storage) +
-               pass::texels_of_nothing * sizeof(Texel);
+        return bytes_of_sums<pass, Texel>();
     } else {
         using pass = gnomon::on_any::filter_of<lanes, Kernel, Texel>;
         constexpr int rows = 2 * Kernel::radius + 2 * gnomon::on_any::rows_at_once;

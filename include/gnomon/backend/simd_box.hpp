@@ -34,13 +34,20 @@ using mean_of = division<std::uint64_t{Kernel::total} * Kernel::total, static_ca
 
 /// Whole codes under equal weights.
 template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
+    using sum = std::uint32_t;
     using storage = typename Texel::storage;
     using ints = typename Isa::ints;
     static constexpr int channels = Texel::channels, step = Isa::float_lanes;
     static constexpr int margin = Kernel::radius * channels, window = Kernel::total * channels;
     static constexpr int strip = piece_bytes / 4 / channels * channels;
     static constexpr int line_size = window + strip + 2 * step;
-    static constexpr int texels_of_nothing = (line_size + channels - 1) / channels;
+
+    box_filter() noexcept {
+        for (int i = 0; i < step; ++i) all_[i] = 0;
+    }
+
+    [[nodiscard]] static sum code(storage stored) noexcept { return stored; }
+    [[nodiscard]] static bool is_summable(const storage*, int) noexcept { return true; }
 
     /// Adds a row to the sums of columns and takes one away.
     static void run(std::uint32_t* sums, const storage* in, const storage* out, int count) noexcept {
@@ -50,29 +57,32 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
         for (; i < count; ++i) sums[i] += std::uint32_t{in[i]} - out[i];
     }
 
+    /// A row of texels from the sums of columns, and a register more: rounded means of windows, which are what lies between their ends.
+    void make(const std::uint32_t* sums, storage* to, int count) noexcept {
+        accumulate(sums, window - channels + count);
+        const std::uint32_t* const first = all_ + step - channels;
+        const ints half = Isa::repeat32(static_cast<std::uint32_t>(Kernel::total) * Kernel::total / 2);
+        const ints factor = Isa::repeat32(static_cast<std::uint32_t>(mean_of<Kernel, Texel>::factor));
+        for (int i = 0; i < count; i += step) {
+            const ints sum_of_window = Isa::subtract32(Isa::load(first + window + i), Isa::load(first + i));
+            Isa::store_low(to + i,
+                           Isa::template multiply_shift32<mean_of<Kernel, Texel>::shift>(Isa::add32(sum_of_window, half), factor));
+        }
+    }
+
+  private:
     /// Each sum and all before it of its channel.
-    static void accumulate(const std::uint32_t* sums, std::uint32_t* all, int count) noexcept {
+    void accumulate(const std::uint32_t* sums, int count) noexcept {
         ints before = Isa::repeat32(0);
         for (int i = 0; i < count; i += step) {
             ints a = Isa::load(sums + i);
             a = added<channels>(a);
             a = Isa::add32(a, before);
-            Isa::store(all + i, a);
+            Isa::store(all_ + step + i, a);
             before = Isa::template repeat_last32<channels>(a);
         }
     }
 
-    /// Rounded means of windows: what lies between their ends.
-    static void divide(const std::uint32_t* first, storage* to, int count) noexcept {
-        const ints half = Isa::repeat32(static_cast<std::uint32_t>(Kernel::total) * Kernel::total / 2);
-        const ints factor = Isa::repeat32(static_cast<std::uint32_t>(mean_of<Kernel, Texel>::factor));
-        for (int i = 0; i < count; i += step) {
-            const ints sum = Isa::subtract32(Isa::load(first + window + i), Isa::load(first + i));
-            Isa::store_low(to + i, Isa::template multiply_shift32<mean_of<Kernel, Texel>::shift>(Isa::add32(sum, half), factor));
-        }
-    }
-
-  private:
     /// What stands `Places`, twice, four times as many places before, added in.
     template <int Places> GNOMON_LANES ints added(ints a) noexcept {
         if constexpr (Places < step)
@@ -80,6 +90,8 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
         else
             return a;
     }
+
+    alignas(64) std::uint32_t all_[static_cast<std::size_t>(step + line_size)]; // from a register of zeros on
 };
 
 /// Can lanes run sums of this texel and kernel? A kernel of one tap is as quick without.
@@ -92,39 +104,44 @@ inline constexpr bool runs_sums = [] {
         return false;
 }();
 
-/// filter_region for a box in lanes, for a region within both images.
-template <typename Isa, kernel Kernel, texel_format Texel>
-void filter_box(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
-    using pass = box_filter<Isa, Kernel, Texel>;
+/// filter_region for a box whose sums run, for a region within both images. False, with part of it written, where a row is not summable.
+template <typename Box, kernel Kernel, texel_format Texel>
+bool filter_box(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
     using storage = typename Texel::storage;
     constexpr int channels = Texel::channels, radius = Kernel::radius;
     const int row_size = from.width() * channels;
 
-    alignas(64) std::uint32_t sums[static_cast<std::size_t>(pass::line_size)];
-    alignas(64) std::uint32_t all[static_cast<std::size_t>(pass::step + pass::line_size)];
-    alignas(64) storage made[static_cast<std::size_t>(pass::strip + pass::step)];
-    Texel nothing[static_cast<std::size_t>(pass::texels_of_nothing)];
+    Box box;
+    alignas(64) typename Box::sum sums[static_cast<std::size_t>(Box::line_size)];
+    alignas(64) storage made[static_cast<std::size_t>(Box::strip + Box::step)];
+    Texel nothing[static_cast<std::size_t>(Box::line_size / channels + 1)];
     for (Texel& each : nothing) each = Texel::clear();
-    for (int i = 0; i < pass::step; ++i) all[i] = 0;
-    std::uint32_t* const ends = all + pass::step; // of the columns up to each; of none, before the first
 
-    for (int x0 = region.x0 * channels; x0 < region.x1 * channels; x0 += pass::strip) {
-        const int x1 = lesser(x0 + pass::strip, region.x1 * channels), left = x0 - pass::margin, right = x1 + pass::margin;
+    for (int x0 = region.x0 * channels; x0 < region.x1 * channels; x0 += Box::strip) {
+        const int x1 = lesser(x0 + Box::strip, region.x1 * channels), left = x0 - Box::margin, right = x1 + Box::margin;
         const int first = greater(left, 0), last = greater(lesser(right, row_size), first); // the columns that are there
         const auto row = [&](int y) {
             return y >= 0 && y < from.height() ? channels_of(from.row(y)) + first : channels_of(nothing);
         };
-        const auto step_to = [&](int y, const storage* out) { pass::run(sums + (first - left), row(y), out, last - first); };
-        // What a column of clear sums to; then row by row what is there in its place, as far as the window above the first row.
-        for (int i = 0; i < pass::line_size; ++i) sums[i] = std::uint32_t{Kernel::total} * channels_of(nothing)[i % channels];
-        for (int y = region.y0 - radius - 1; y < region.y0 + radius; ++y) step_to(y, channels_of(nothing));
+        const auto step_to = [&](int y, const storage* out) {
+            if (!Box::is_summable(row(y), last - first)) return false;
+            Box::run(sums + (first - left), row(y), out, last - first);
+            return true;
+        };
+        // What a column of clear sums to; then row by row what is there in its place, but for the last row of the first window.
+        for (int i = 0; i < Box::line_size; ++i) {
+            const auto each = Box::code(channels_of(nothing)[i % channels]);
+            sums[i] = static_cast<typename Box::sum>(Kernel::total) * each;
+        }
+        for (int y = region.y0 - radius; y < region.y0 + radius; ++y)
+            if (!step_to(y, channels_of(nothing))) return false;
         for (int y = region.y0; y < region.y1; ++y) {
-            step_to(y + radius, row(y - radius - 1));
-            pass::accumulate(sums, ends, right - left);
-            pass::divide(ends - channels, made, x1 - x0);
+            if (!step_to(y + radius, y == region.y0 ? channels_of(nothing) : row(y - radius - 1))) return false;
+            box.make(sums, made, x1 - x0);
             std::memcpy(channels_of(to.row(y)) + x0, made, static_cast<std::size_t>(x1 - x0) * sizeof(storage));
         }
     }
+    return true;
 }
 
 /// filter_region in lanes, for a region within both images. False, and nothing done, without a scratch, which boxes can do without
@@ -136,11 +153,10 @@ bool filter(image_view<const Texel> from, image_view<Texel> to, texel_rect regio
     if (from.width() > widest) return false;
     if constexpr (runs_sums<Kernel, Texel>) {
         if (scratch.empty()) return false;
-        filter_box<Isa, Kernel, Texel>(from, to, region);
-        return true;
+        return filter_box<box_filter<Isa, Kernel, Texel>, Kernel>(from, to, region);
     } else {
         if constexpr (runs_in_doubles<Kernel, Texel>)
-            if (!scratch.empty() && filter_float_box<Isa, Kernel, Texel>(from, to, region)) return true;
+            if (!scratch.empty() && filter_box<float_box<Isa, Kernel, Texel>, Kernel>(from, to, region)) return true;
         return filter_rows<Isa, Kernel, Texel>(from, to, region, scratch);
     }
 }

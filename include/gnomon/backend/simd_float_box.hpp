@@ -7,7 +7,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 
 #ifdef GNOMON_ON
@@ -17,6 +16,7 @@ namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 /// stored as. Of (2R+1)^2 of them a double holds any sum, for R up to 256, and a line's 36 bits hold those of 2R+1: so sums may run,
 /// and have the bits of any other order.
 template <typename Isa, kernel Kernel, texel_format Texel> struct float_box {
+    using sum = double;
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
     using ints = typename Isa::ints;
@@ -25,7 +25,8 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct float_box {
     static constexpr int taps = 2 * Kernel::radius + 1, margin = Kernel::radius * channels, window = taps * channels;
     static constexpr int strip = piece_bytes / 8 / channels * channels;
     static constexpr int line_size = window + strip + step;
-    static constexpr int texels_of_nothing = line_size / channels + 1;
+
+    [[nodiscard]] static sum code(storage stored) noexcept { return static_cast<double>(channel_type::code(stored)); }
 
     /// Is a row what sums may run over?
     [[nodiscard]] static bool is_summable(const storage* row, int count) noexcept {
@@ -66,28 +67,32 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct float_box {
                 Isa::subtract(Isa::template codes<channel_type>(in + i), Isa::template codes<channel_type>(out + i));
             Isa::store(sums + i, Isa::add(Isa::load(sums + i), change));
         }
-        for (; i < count; ++i)
-            sums[i] += static_cast<double>(channel_type::code(in[i])) - static_cast<double>(channel_type::code(out[i]));
+        for (; i < count; ++i) sums[i] += code(in[i]) - code(out[i]);
     }
 
+    /// A row of texels from the sums of columns, and a register more.
+    void make(const double* sums, storage* to, int count) noexcept {
+        slide(sums, count);
+        const auto whole = Isa::repeat(detail::sums<Texel, Kernel>::whole);
+        for (int i = 0; i < count; i += step)
+            Isa::template store_codes<channel_type>(to + i, Isa::divide(Isa::load(all_ + i), whole));
+    }
+
+  private:
     /// The sums of windows: what comes in on the right goes out on the left.
-    static void slide(const double* sums, double* all, int count) noexcept {
+    void slide(const double* sums, int count) noexcept {
         double here[static_cast<std::size_t>(channels)]{};
         for (int i = 0; i < window; ++i) here[i % channels] += sums[i];
         for (int i = 0; i < count; i += channels) {
             GNOMON_UNROLL(4)
             for (int c = 0; c < channels; ++c) {
-                all[i + c] = here[c];
+                all_[i + c] = here[c];
                 here[c] += sums[i + c + window] - sums[i + c];
             }
         }
     }
 
-    static void divide(const double* all, storage* to, int count) noexcept {
-        const auto whole = Isa::repeat(detail::sums<Texel, Kernel>::whole);
-        for (int i = 0; i < count; i += step)
-            Isa::template store_codes<channel_type>(to + i, Isa::divide(Isa::load(all + i), whole));
-    }
+    alignas(64) double all_[static_cast<std::size_t>(strip + step)]{};
 };
 
 /// Can sums of this texel and kernel run in doubles, and is that quicker?
@@ -99,48 +104,6 @@ inline constexpr bool runs_in_doubles = [] {
            Texel::representation_type::premultiplied && !by::in_floats && detail::is_box<typename by::weights_of> &&
            Kernel::radius >= 8 && Kernel::radius <= 256;
 }();
-
-/// filter_region for such a box, for a region within both images. False, with part of it written, where a number is met that sums do
-/// not run over.
-template <typename Isa, kernel Kernel, texel_format Texel>
-bool filter_float_box(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {
-    using pass = float_box<Isa, Kernel, Texel>;
-    using storage = typename Texel::storage;
-    constexpr int channels = Texel::channels, radius = Kernel::radius;
-    const int row_size = from.width() * channels;
-
-    alignas(64) double sums[static_cast<std::size_t>(pass::line_size)];
-    alignas(64) double all[static_cast<std::size_t>(pass::strip + pass::step)];
-    alignas(64) storage made[static_cast<std::size_t>(pass::strip + pass::step)];
-    Texel nothing[static_cast<std::size_t>(pass::texels_of_nothing)];
-    for (Texel& each : nothing) each = Texel::clear();
-    for (double& each : all) each = 0.0;
-
-    for (int x0 = region.x0 * channels; x0 < region.x1 * channels; x0 += pass::strip) {
-        const int x1 = lesser(x0 + pass::strip, region.x1 * channels), left = x0 - pass::margin, right = x1 + pass::margin;
-        const int first = greater(left, 0), last = greater(lesser(right, row_size), first); // the columns that are there
-        const auto row = [&](int y) {
-            return y >= 0 && y < from.height() ? channels_of(from.row(y)) + first : channels_of(nothing);
-        };
-        const auto step_to = [&](int y, const storage* out) {
-            if (!pass::is_summable(row(y), last - first)) return false;
-            pass::run(sums + (first - left), row(y), out, last - first);
-            return true;
-        };
-        // What a column of clear sums to; then row by row what is there in its place, but for the last row of the first window.
-        for (int i = 0; i < pass::line_size; ++i)
-            sums[i] = pass::taps * static_cast<double>(Texel::channel_type::code(channels_of(nothing)[i % channels]));
-        for (int y = region.y0 - radius; y < region.y0 + radius; ++y)
-            if (!step_to(y, channels_of(nothing))) return false;
-        for (int y = region.y0; y < region.y1; ++y) {
-            if (!step_to(y + radius, y == region.y0 ? channels_of(nothing) : row(y - radius - 1))) return false;
-            pass::slide(sums, all, x1 - x0);
-            pass::divide(all, made, x1 - x0);
-            std::memcpy(channels_of(to.row(y)) + x0, made, static_cast<std::size_t>(x1 - x0) * sizeof(storage));
-        }
-    }
-    return true;
-}
 
 } // namespace gnomon::inline GNOMON_BUILD::GNOMON_ON
 #endif
