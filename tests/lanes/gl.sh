@@ -14,7 +14,7 @@ run_lane() {
     need_packages "${base_packages[@]}"
     local name words packages report=$root/build/gl/compared.tsv
     heading "configure and build"
-    if ! cmake --preset quick -DGNOMON_EXAMPLES=OFF -B build/gl ||
+    if ! cmake --preset quick -DGNOMON_EXAMPLES=OFF '-DGNOMON_TEST_PARTS=cases;gl' -B build/gl ||
         ! cmake --build build/gl -j "$jobs" --target gnomon_tests_gl gnomon_tests_on_gl; then
         row gl 0 1 0 "$SECONDS" "does not build"
         return

@@ -45,10 +45,9 @@ other_rows() {
 geometry-fused   | geometry/ with fused multiply-adds: the lines called exact must not change
 fast-math        | what -ffast-math is made of must be refused; and what it would change
 can-fail         | four copies of the library, each with one thing broken: a line must change
-tests-gcc-O2     | the tests of texel/, filter/, receive/, simd/ and backend/ themselves, optimised as users have it
-tests-nehalem    | those of simd/ and backend/ on a processor without AVX
+tests-nehalem    | the tests of simd/ and backend/ themselves on a processor without AVX
 tests-haswell    | and on one with AVX2
-tests-aarch64    | those of tests-gcc-O2 on 64-bit ARM
+tests-aarch64    | those of texel/, filter/, receive/, simd/ and backend/ on 64-bit ARM
 tests-s390x      | those of texel/, filter/ and receive/ on a big-endian processor
 tests-wasm       | those of simd/ and backend/ in WebAssembly, with its vectors
 TABLE
@@ -239,9 +238,6 @@ TABLE
     row "$1" "$caught" "$missed" 0 $((SECONDS - began)) "broken copies of the library that turned a line red"
 }
 
-row_tests_gcc_O2() {
-    test_row "$1" "texel filter receive simd backend" g++ "g++ -O2" ""
-}
 row_tests_nehalem() { test_row "$1" "simd backend" g++ "g++ -O1" "qemu-x86_64 -cpu Nehalem"; }
 row_tests_haswell() { test_row "$1" "simd backend" g++ "g++ -O1" "qemu-x86_64 -cpu Haswell"; }
 row_tests_aarch64() {
