@@ -1,6 +1,7 @@
 // Receivers anywhere, blended and decided in lanes, against the oracle, bit for bit: every position there is around a texel, on the map,
 // across each of its borders and far away; every width, any stride and rule; and nothing beside the map is read.
 #include <gnomon/backend/simd.hpp>
+#include <gnomon/backend/simd_blend.hpp>
 #include <gnomon/backend/simd_points.hpp>
 
 #include "../support/bits.hpp"
@@ -15,6 +16,8 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -22,6 +25,7 @@ namespace {
 using gnomon::extent;
 using gnomon::image;
 using gnomon::image_view;
+using gnomon::rg16;
 using gnomon::rg8;
 using gnomon::rule;
 using gnomon::simd;
@@ -34,6 +38,8 @@ const rule rules[] = {
     {.caster = gnomon::unbiased},
     {.caster = gnomon::towards_shadow},
     {.caster = {.roundings = 2}},
+    {.caster = {.towards = gnomon::bias_towards::shadow, .roundings = 128}},
+    {.caster = {.roundings = 129}},
     {.caster = {.roundings = 0, .depth = -0.125f}},
     {.caster = {.towards = gnomon::bias_towards::shadow, .roundings = 0, .depth = 0.25f}},
     {.caster = {.depth = 0.5f, .caster_is_code = true}, .lit_beyond = true},
@@ -45,7 +51,7 @@ struct points {
 };
 
 /// Around the map: on every 1/512 texel and a float beside it, nowhere, and at depths around that of the blend.
-points some_points(dice& roll, const image<rg8>& map, int count) {
+template <typename Texel> points some_points(dice& roll, const image<Texel>& map, int count) {
     constexpr float odd[] = {
         test::infinity<float>, -test::infinity<float>, test::nan<float>, 3e38f, -3e38f, 4194304.0f, 1.5f, -0.0f, 1e-30f, -1e-30f};
     points p;
@@ -58,8 +64,8 @@ points some_points(dice& roll, const image<rg8>& map, int count) {
         p.x.push_back(position(map.size().width));
         p.y.push_back(position(map.size().height));
         const auto f = gnomon::sample(map.view(), p.x.back(), p.y.back());
-        const float s = gnomon::caster_depth(f),
-                    moved = roll.one_in(2) ? 0.5f / 255.0f + 0.5f / 255.0f / static_cast<float>(f.mask() + 0.5) : 0.0f;
+        constexpr float half = 0.5f / Texel::channel_type::scale;
+        const float s = gnomon::caster_depth(f), moved = roll.one_in(2) ? half + half / static_cast<float>(f.mask() + 0.5) : 0.0f;
         const float z = roll.one_in(8) ? odd[roll(0, 9)]
                                        : (roll.one_in(3) ? roll.unit() : s + moved + static_cast<float>(roll(-2, 2)) * 0x1p-24f);
         p.z.push_back(z);
@@ -76,49 +82,42 @@ template <typename Depth> const std::vector<Depth>& depths_of(const points& p) {
     else
         return p.codes;
 }
-template <typename D, typename I> struct of_numbers {
-    using depth = D;
-    using intensity = I;
-};
-using floats_only = of_numbers<float, float>;
-using floats_to_bytes = of_numbers<float, std::uint8_t>;
-using codes_to_bytes = of_numbers<std::uint16_t, std::uint8_t>;
-using codes_to_floats = of_numbers<std::uint16_t, float>;
-using codes_to_words = of_numbers<std::uint16_t, std::uint16_t>;
 } // namespace
 
-TYPE_TO_STRING_AS("floats to floats", floats_only);
-TYPE_TO_STRING_AS("floats to bytes", floats_to_bytes);
-TYPE_TO_STRING_AS("codes to bytes", codes_to_bytes);
-TYPE_TO_STRING_AS("codes to floats", codes_to_floats);
-TYPE_TO_STRING_AS("codes to 16 bits", codes_to_words);
-
-TEST_CASE_TEMPLATE("receivers anywhere are decided in lanes as by the oracle: any position, map, rule and depth", Numbers,
-                   floats_only, floats_to_bytes, codes_to_bytes, codes_to_floats, codes_to_words) {
-    using Intensity = typename Numbers::intensity;
+TEST_CASE_TEMPLATE("receivers anywhere are decided in lanes as by the oracle: any position, map, rule and depth", Texel, rg8,
+                   rg16) {
     dice roll(431);
     for (const extent size : {extent{23, 17}, {2, 2}, {1, 9}, {9, 1}, {300, 3}, {0, 0}}) {
-        image<rg8> map = test::noise<rg8>(roll, size, 2);
+        image<Texel> map = test::noise<Texel>(roll, size, 2);
         if (!size.empty()) test::fill_with_bits(roll, map.view().part({0, 0, size.width / 3, size.height / 2})); // e > m too
         const points p = some_points(roll, map, 3000);
-        const auto& z = depths_of<typename Numbers::depth>(p);
-        for (const rule& r : rules) {
-            std::vector<Intensity> expected(p.x.size()), made(p.x.size());
-            gnomon::receive(map.view(), p.x, p.y, z, expected, r);
-            int dark = 0;
-            for (const Intensity intensity : expected) dark += intensity > Intensity{};
-            CHECK((size.width < 20 || dark > 50));
-            for_each_isa([&]<typename Isa>() {
-                gnomon::receive(simd<Isa>{}, map.view(), p.x, p.y, z, made, r);
-                CHECK(std::memcmp(expected.data(), made.data(), made.size() * sizeof(Intensity)) == 0);
-            });
-        }
+        const auto as_by_the_oracle = [&]<typename Depth, typename Intensity>(Depth, Intensity) {
+            const auto& z = depths_of<Depth>(p);
+            for (const rule& r : rules) {
+                std::vector<Intensity> expected(p.x.size()), made(p.x.size());
+                gnomon::receive(map.view(), p.x, p.y, z, expected, r);
+                int dark = 0;
+                for (const Intensity intensity : expected) dark += intensity > Intensity{};
+                CHECK((size.width < 20 || dark > 50));
+                for_each_isa([&]<typename Isa>() {
+                    gnomon::receive(simd<Isa>{}, map.view(), p.x, p.y, z, made, r);
+                    CHECK(std::memcmp(expected.data(), made.data(), made.size() * sizeof(Intensity)) == 0);
+                });
+            }
+        };
+        as_by_the_oracle(float{}, float{});
+        as_by_the_oracle(float{}, std::uint8_t{});
+        as_by_the_oracle(float{}, std::uint16_t{});
+        as_by_the_oracle(std::uint16_t{}, float{});
+        as_by_the_oracle(std::uint16_t{}, std::uint8_t{});
+        as_by_the_oracle(std::uint16_t{}, std::uint16_t{});
     }
 }
 
-TEST_CASE("every position within a texel and its neighbours, to 1/512, gives the oracle's blend, at the border too") {
+TEST_CASE_TEMPLATE("every position within a texel and its neighbours, to 1/512, gives the oracle's blend, at the border too", Texel,
+                   rg8, rg16) {
     dice roll(432);
-    const image<rg8> map = test::noise<rg8>(roll, {3, 2}, 2);
+    const image<Texel> map = test::noise<Texel>(roll, {3, 2}, 2);
     points p;
     for (int y = -1024; y <= 4 * 512; y += 37)
         for (int x = -1024; x <= 5 * 512; ++x) {
@@ -134,20 +133,22 @@ TEST_CASE("every position within a texel and its neighbours, to 1/512, gives the
     });
 }
 
-TEST_CASE("the least mask that a blend can have is an intensity, for depths in codes too") {
-    image<rg8> map({3, 3}, rg8::clear());
+TEST_CASE_TEMPLATE("the least mask that a blend can have is an intensity, for depths in codes too", Texel, rg8, rg16) {
+    image<Texel> map({3, 3}, Texel::clear());
     map(1, 1) = {{1, 1}};
     const std::vector<float> at(8, 0.5f + 1.0f / 256);
     const std::vector<std::uint16_t> deepest(at.size(), 65535);
     std::vector<float> made(at.size());
     for_each_isa([&]<typename Isa>() {
         gnomon::receive(simd<Isa>{}, map.view(), at, at, deepest, made, {.caster = gnomon::unbiased});
-        CHECK(made == std::vector<float>(at.size(), 1.0f / (255 * 65536)));
+        CHECK(made == std::vector<float>(at.size(), 1.0f / (Texel::channel_type::scale * 65536)));
     });
 }
 
-TEST_CASE("a receiver that its bias moves behind every caster is shadowed by those on the far plane, for depths in codes too") {
-    const image<rg8> map({3, 3}, rg8::caster(1.0f));
+TEST_CASE_TEMPLATE(
+    "a receiver that its bias moves behind every caster is shadowed by those on the far plane, for depths in codes too", Texel, rg8,
+    rg16) {
+    const image<Texel> map({3, 3}, Texel::caster(1.0f));
     const std::vector<float> at(64, 1.5f);
     const std::vector<std::uint16_t> deepest(at.size(), 65535);
     std::vector<float> made(at.size());
@@ -158,10 +159,11 @@ TEST_CASE("a receiver that its bias moves behind every caster is shadowed by tho
     });
 }
 
-TEST_CASE("receivers anywhere: every width to 67, any stride, in place, and on a map whose rows go upwards") {
+TEST_CASE_TEMPLATE("receivers anywhere: every width to 67, any stride, in place, and on a map whose rows go upwards", Texel, rg8,
+                   rg16) {
     dice roll(433);
-    const image<rg8> map = test::noise<rg8>(roll, {40, 30}, 2);
-    const image_view<const rg8> upwards(map.view().row(29), {40, 30}, -map.view().stride());
+    const image<Texel> map = test::noise<Texel>(roll, {40, 30}, 2);
+    const image_view<const Texel> upwards(map.view().row(29), {40, 30}, -map.view().stride());
     const points p = some_points(roll, map, 300);
     const auto spread_over = [](auto* memory, int count, int spread) {
         using T = std::remove_pointer_t<decltype(memory)>;
@@ -221,14 +223,21 @@ TEST_CASE("receivers anywhere on maps of more texels a side than lanes count are
     }
 }
 
-TEST_CASE("lanes blend on maps of 2 to 2^21 texels a side whose offsets fit 32 bits, and for rules of one rounding at most") {
-    const rg8 memory{}; // that of offsets beyond 32 bits is not to be had, and none is read
-    const auto serves = [&memory](extent size, std::ptrdiff_t stride, int roundings = 1) {
-        return gnomon::on_any::blended_decision<gnomon::emulated<16>, rg8, float, float>::serves(
-            {&memory, size, stride}, {.caster = {.roundings = roundings}});
+TEST_CASE(
+    "lanes blend on maps of 2 to 2^21 texels a side whose offsets fit 32 bits; bytes for rules of one rounding, words of 128") {
+    const std::tuple<rg8, rg16> memory; // that of offsets beyond 32 bits is not to be had, and none is read
+    const auto serves_on = [&memory]<typename Texel>(Texel, extent size, std::ptrdiff_t stride, int roundings) {
+        return gnomon::on_any::blended_decision<gnomon::emulated<16>, Texel, float, float>::serves(
+            {&std::get<Texel>(memory), size, stride}, {.caster = {.roundings = roundings}});
+    };
+    const auto serves = [&](extent size, std::ptrdiff_t stride, int roundings = 1) {
+        return serves_on(rg8{}, size, stride, roundings);
     };
     constexpr int most = 1 << 21;
     for (const int sign : {1, -1}) {
+        CHECK((serves_on(rg16{}, {2, 4}, sign * 0x1FFFFFFC, 1) && !serves_on(rg16{}, {2, 4}, sign * 0x20000000, 1)));
+        CHECK((serves_on(rg16{}, {most, 2048}, sign * 0xFEFFC, 1) && !serves_on(rg16{}, {most, 2048}, sign * 0xFF000, 1)));
+        CHECK((serves_on(rg16{}, {2, 2}, sign * 8, 128) && !serves_on(rg16{}, {2, 2}, sign * 8, 129)));
         CHECK((serves({2, 4}, sign * 0x1FFFFFFE) && !serves({2, 4}, sign * 0x1FFFFFFF)));
         CHECK((serves({2, 3}, sign * 0x2AAAAAA9) && !serves({2, 3}, sign * 0x2AAAAAAA)));       // the first is all there is
         CHECK((serves({most, 2048}, sign * 0xFF7FF) && !serves({most, 2048}, sign * 0xFF800))); // rows that overlap
@@ -239,16 +248,45 @@ TEST_CASE("lanes blend on maps of 2 to 2^21 texels a side whose offsets fit 32 b
     }
 }
 
-TEST_CASE("lanes say that they decided, and leave nothing to be decided again") {
-    const image<rg8> map({4, 4}, rg8::caster(0.5f));
+TEST_CASE_TEMPLATE("lanes say that they decided, and leave nothing to be decided again", Texel, rg8, rg16) {
+    const image<Texel> map({4, 4}, Texel::caster(0.5f));
     const std::array where{1.5f, 2.5f, 0.25f};
     const strided_span<const float> at(where);
     for_each_isa([&]<typename Isa>() {
         std::array<float, 3> made{};
         CHECK(gnomon::detail::in_lanes<Isa>([&]<typename Lanes>() {
-            return gnomon::detail::receive_points_on<Lanes, rg8, float, float>(map.view(), at, at, at, made, {});
+            return gnomon::detail::receive_points_on<Lanes, Texel, float, float>(map.view(), at, at, at, made, {});
         }));
     });
+}
+
+TEST_CASE("a blend of words is decided by floats but within a 16th of a code of nothing") {
+    using lanes = gnomon::emulated<16>;
+    using words = gnomon::on_any::word_blend<lanes, rg16>;
+    const auto tells = []<typename Depth>(Depth, float mask,
+                                          double beyond) { // by m (z - s), in codes, for a caster at 1/2 of the depth
+        const auto by = gnomon::on_any::blend_rule<lanes>::of<rg16, Depth>({.caster = {.towards = gnomon::bias_towards::none}});
+        const auto code = [](double number) { return lanes::repeat32(static_cast<std::uint32_t>(number * 65536.0)); };
+        const double m = static_cast<double>(mask);
+        const words::pair blended{code(m / 2 - beyond), code(m)};
+        lanes::masks shadowed{};
+        if constexpr (std::is_same_v<Depth, float>) {
+            const std::array<float, 4> half{0.5f, 0.5f, 0.5f, 0.5f};
+            return words::decided(by, blended, half.data(), shadowed);
+        } else {
+            const std::array<std::uint16_t, 4> half{32768, 32768, 32768, 32768}; // and half a code
+            return words::decided(by, blended, half.data(), shadowed);
+        }
+    };
+    for (const float mask : {65535.0f, 4097.0f, 2.0f}) {
+        const double half_code = static_cast<double>(mask) / 131070.0;
+        for (const double sign : {-1.0, 1.0}) {
+            CHECK_FALSE(tells(0.0f, mask, sign * 0x1p-5));
+            CHECK(tells(0.0f, mask, sign * 0x1p-3));
+            CHECK_FALSE(tells(std::uint16_t{}, mask, half_code + sign * 0x1p-5));
+            CHECK(tells(std::uint16_t{}, mask, half_code + sign * 0x1p-3));
+        }
+    }
 }
 
 TEST_CASE("results of receivers anywhere are called for ahead of time, each register's once") {
@@ -289,12 +327,12 @@ TEST_CASE("of no receivers, which have no memory, lanes name none") { // the und
     });
 }
 
-TEST_CASE("lanes read nothing beside the map: its memory ends where its last texel does") {
+TEST_CASE_TEMPLATE("lanes read nothing beside the map: its memory ends where its last texel does", Texel, rg8, rg16) {
     dice roll(434);
     for (const extent size : {extent{2, 2}, {5, 3}, {64, 2}, {2, 9}}) { // the address sanitizer watches; so do the bits, without it
-        const auto memory = std::make_unique<rg8[]>(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
-        const image_view<rg8> map(memory.get(), size);
-        test::for_each_texel(whole(size), [&](int x, int y) { map(x, y) = test::any_caster<rg8>(roll); });
+        const auto memory = std::make_unique<Texel[]>(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+        const image_view<Texel> map(memory.get(), size);
+        test::for_each_texel(whole(size), [&](int x, int y) { map(x, y) = test::any_caster<Texel>(roll); });
         points p; // whole registers of neighbours, among them some within a texel of each border
         for (float y = -1.0f; y < static_cast<float>(size.height + 1); y += 0.11f)
             for (float x = -1.0f; x < static_cast<float>(size.width + 1); x += 1.0f / 64) {
