@@ -10,6 +10,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,7 @@ namespace {
 using gnomon::backend_for;
 using gnomon::binomial;
 using gnomon::box;
+using gnomon::extent;
 using gnomon::filter_scratch;
 using gnomon::image;
 using gnomon::image_view;
@@ -26,6 +29,7 @@ using gnomon::scalar;
 using gnomon::strided_span;
 using gnomon::texel_format;
 using gnomon::texel_rect;
+using test::dice;
 
 /// A backend of a user's: does what scalar does, and keeps count.
 struct counting : scalar {
@@ -104,6 +108,7 @@ template <typename B>
 concept is_taken_by_receive = requires(const B& run, image_view<const rg8> map, image_view<float> all, strided_span<float> some) {
     gnomon::receive(run, map.row_span(0), some, some);
     gnomon::receive(run, map, some, some, some, some);
+    gnomon::receive(run, map, all, all);
     gnomon::receive(run, map, all, all, rule{}, gnomon::sequential{});
 };
 static_assert(is_taken_by_receive<near_miss::receives_only> && !is_taken_by_receive<near_miss::filters_only>);
@@ -162,6 +167,21 @@ TEST_CASE("the facade runs on a backend of a user's, which sees each of its loop
 static_assert(sizeof(gnomon::soft_shadow_map<rg8, box<1>, counting>) ==
                   sizeof(gnomon::soft_shadow_map<rg8, box<1>, scalar>) + sizeof(counting),
               "a backend without state costs no byte");
+
+TEST_CASE("a whole image of receivers is decided row by row, as far as the map, the depths and the intensities all reach") {
+    dice roll(462);
+    const image<rg8> map = test::noise<rg8>(roll, {21, 9}, 2);
+    for (const extent size : {extent{21, 9}, {30, 5}, {13, 12}}) {
+        image<std::uint16_t> z(size);
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 0; x < size.width; ++x) z(x, y) = static_cast<std::uint16_t>(roll(0, 65535));
+        std::vector<std::uint8_t> expected(std::size_t{19 * 8}, std::uint8_t{77}), made = expected;
+        gnomon::receive(map.view(), z.view(), image_view<std::uint8_t>(expected.data(), {19, 8}));
+        gnomon::receive(gnomon::simd<>{}, map.view(), z.view(), image_view<std::uint8_t>(made.data(), {19, 8}));
+        CHECK(made == expected);
+        CHECK((made.back() == 77) == (size.width < 19 || size.height < 8));
+    }
+}
 
 TEST_CASE("what lanes know is left to the lanes that are named") {
     const image<rg8> casters({48, 3}, rg8::caster(0.5f));

@@ -51,6 +51,14 @@ void receive(const Backend& run, const Row& texels, const Depths& z, Intensities
                 strided_span<const std::remove_const_t<element_in<const Depths>>>(strided_span(z)), strided_span(intensity), r);
 }
 
+/// A whole image of receivers: receive(simd<>{}, soft, depths, intensities), each an image_view; what the three share is written.
+template <typename Backend, typename T, typename Z, intensity_number Intensity>
+    requires receives<Backend, std::remove_const_t<T>> && depth_number<std::remove_const_t<Z>>
+void receive(const Backend& run, image_view<T> map, image_view<Z> z, image_view<Intensity> intensity, const rule& r = {}) noexcept {
+    const int rows = lesser(map.height(), lesser(z.height(), intensity.height()));
+    for (int y = 0; y < rows; ++y) gnomon::receive(run, map.row_span(y), z.row_span(y), intensity.row_span(y), r);
+}
+
 /// Receivers anywhere: receive(simd<>{}, soft, x, y, depths, intensities), x and y in texels.
 template <typename Backend, typename T, depth_row Depths, intensity_row Intensities>
     requires receives<Backend, std::remove_const_t<T>>
