@@ -65,10 +65,7 @@ template <typename Isa, kernel Kernel, typename Texel> void add_ours(const std::
         const image<Texel> from = discs<Texel>(size);
         image<Texel> to(from.size(), Texel::clear());
         filter_scratch<Texel, Kernel> scratch(size);
-        for ([[maybe_unused]] auto _ : state) {
-            simd<Isa>{}.filter_region(from.view(), to.view(), whole(from.size()), scratch);
-            benchmark::ClobberMemory();
-        }
+        floors::measure(state, [&] { simd<Isa>{}.filter_region(from.view(), to.view(), whole(from.size()), scratch); });
     });
 }
 
@@ -81,10 +78,7 @@ template <typename Texel, int Taps, typename F> void add_cv(const char* what, in
         image<Texel> map = discs<Texel>(size);
         const cv::Mat from(size, size, type, &map(0, 0), static_cast<std::size_t>(map.view().stride()));
         cv::Mat to(size, size, type);
-        for ([[maybe_unused]] auto _ : state) {
-            filter(from, to);
-            benchmark::ClobberMemory();
-        }
+        floors::measure(state, [&] { filter(from, to); });
     });
 }
 #endif

@@ -25,12 +25,18 @@ constexpr int side = 1024;
 constexpr extent size{side, side};
 constexpr std::size_t texels = std::size_t{side} * side;
 
-template <typename F> void add(const std::string& what, F&& work) {
-    benchmark::RegisterBenchmark((what + "/u8x2/k9/1024").c_str(), work);
+constexpr std::size_t filtered = texels * sizeof(texel), ///< and written again
+    received = texels * (sizeof(texel) + sizeof(depth_code) + sizeof(intensity_code));
+
+template <typename F> void add(const std::string& what, std::size_t bytes, F&& work) {
+    benchmark::RegisterBenchmark((what + "/u8x2/k9/1024").c_str(), [work, bytes](benchmark::State& state) {
+        work(state);
+        state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(bytes));
+    });
 }
 
 template <typename Isa> void add_pipeline(const char* what) {
-    add(what, [](benchmark::State& state) {
+    add(what, 2 * filtered + received, [](benchmark::State& state) {
         image<texel> casters(size, texel::clear()), soft(size, texel::clear());
         image<depth_code> z(size);
         image<intensity_code> intensity(size);
@@ -40,17 +46,15 @@ template <typename Isa> void add_pipeline(const char* what) {
                 z(x, y) = unorm16::encode(static_cast<float>(y) / side);
             }
         filter_scratch<texel, kernel_9> scratch(side);
-        for ([[maybe_unused]] auto _ : state) {
+        floors::measure(state, [&] {
             simd<Isa>{}.filter_region(image_view<const texel>(casters.view()), soft.view(), whole(size), scratch);
-            for (int y = 0; y < side; ++y)
-                receive(simd<Isa>{}, soft.view().row_span(y), z.view().row_span(y), intensity.view().row_span(y));
-            benchmark::ClobberMemory();
-        }
+            receive(simd<Isa>{}, soft.view(), z.view(), intensity.view());
+        });
     });
 }
 
 void add_copy(const char* what, std::size_t bytes) {
-    add(what, [bytes](benchmark::State& state) { floors::copy(state, bytes); });
+    add(what, 2 * bytes, [bytes](benchmark::State& state) { floors::copy(state, bytes); });
 }
 
 #if GNOMON_X86
@@ -58,7 +62,7 @@ void add_avx2() {
     if (best_lanes() >= cpu_level::avx2) add_pipeline<avx2>("both.avx2");
 }
 void add_stream() {
-    add("stream", [](benchmark::State& state) { floors::stream(state, texels * sizeof(texel)); });
+    add("stream", 2 * filtered, [](benchmark::State& state) { floors::stream(state, filtered); });
 }
 #else
 void add_avx2() {}
@@ -67,9 +71,9 @@ void add_stream() {}
 void add_all() {
     add_pipeline<best_isa>("both");
     add_avx2();
-    add_copy("copy", texels * sizeof(texel));
+    add_copy("copy", filtered);
     add_stream();
-    add_copy("receive.copy", texels * (sizeof(texel) + sizeof(depth_code) + sizeof(intensity_code)) / 2);
+    add_copy("receive.copy", received / 2);
 }
 } // namespace
 

@@ -6,7 +6,7 @@
 //     copy                                   the floor: memcpy that moves as many bytes
 //     points, points.avx2, points.scalar     one receiver a texel at positions of its own, side by side but turned a little
 //     gather, gather.avx2                    the floor of these: two gathers of 32 bits and a store
-//     opencv                                 divide, subtract, compare, setTo, copyTo on planes, in one thread, if CMake found OpenCV
+//     opencv.copied, opencv.multiplied       operations on planes in one thread, if CMake found OpenCV, of which the quicker counts
 #include "floors.hpp"
 
 #include <gnomon/backend/simd.hpp>
@@ -17,11 +17,13 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <utility>
 #if GNOMON_X86
 #include <immintrin.h>
 #endif
 #if GNOMON_BENCH_OPENCV
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #endif
 
 namespace {
@@ -73,10 +75,7 @@ void add_ours(const char* what, const char* format, int size) {
     add(what, format, size, square(size) * bytes_of<Texel, Depth, Intensity>, [size](benchmark::State& state) {
         const scene<Texel, Depth> from({size * size, 1});
         auto intensity = make_row<Intensity>(size);
-        for ([[maybe_unused]] auto _ : state) {
-            receive(Backend{}, row_of(from.texels), row_of(from.z), row_of(intensity));
-            benchmark::ClobberMemory();
-        }
+        floors::measure(state, [&] { receive(Backend{}, row_of(from.texels), row_of(from.z), row_of(intensity)); });
     });
 }
 
@@ -112,10 +111,8 @@ template <typename Backend> void add_points(const char* what, int size) {
         const scene<rg8, float> from({size, size});
         const turned at(size);
         auto intensity = make_row<float>(size);
-        for ([[maybe_unused]] auto _ : state) {
-            receive(Backend{}, from.texels.view(), row_of(at.x), row_of(at.y), row_of(from.z), row_of(intensity));
-            benchmark::ClobberMemory();
-        }
+        floors::measure(
+            state, [&] { receive(Backend{}, from.texels.view(), row_of(at.x), row_of(at.y), row_of(from.z), row_of(intensity)); });
     });
 }
 
@@ -137,10 +134,7 @@ template <typename F> void add_gathers(const char* what, int size, F&& gather_tw
         const offsets where(size);
         auto found = make_row<int>(size);
         const auto* map = reinterpret_cast<const char*>(&from.texels(0, 0));
-        for ([[maybe_unused]] auto _ : state) {
-            gather_twice(map, from.texels.view().stride(), where, &found(0, 0), size * size);
-            benchmark::ClobberMemory();
-        }
+        floors::measure(state, [&] { gather_twice(map, from.texels.view().stride(), where, &found(0, 0), size * size); });
     });
 }
 
@@ -185,31 +179,49 @@ void add_all_points(int size) {
 #endif
 }
 
-/// s = 1 - e/m, shadowed where z > s, and there the mask: on planes, which is how OpenCV likes it best.
-void add_opencv([[maybe_unused]] int size) {
+/// Planes, which is how OpenCV likes them best.
 #if GNOMON_BENCH_OPENCV
-    add("opencv", "f32x2.f32", size, square(size) * bytes_of<rg32f, float, float>, [size](benchmark::State& state) {
-        cv::setNumThreads(1);
+struct planes {
+    cv::Mat e, m, z, s, shadowed, intensity;
+    explicit planes(int size)
+        : e(size, size, CV_32F), m(size, size, CV_32F), z(size, size, CV_32F), s(size, size, CV_32F), shadowed(size, size, CV_8U),
+          intensity(size, size, CV_32F) {
         const scene<rg32f, float> from({size, size});
-        cv::Mat e(size, size, CV_32F), m(size, size, CV_32F), z(size, size, CV_32F), s(size, size, CV_32F),
-            shadowed(size, size, CV_8U), intensity(size, size, CV_32F);
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {
                 e.at<float>(y, x) = from.texels(x, y).stored[0];
                 m.at<float>(y, x) = from.texels(x, y).stored[1];
                 z.at<float>(y, x) = from.z(y * size + x, 0);
             }
-        for ([[maybe_unused]] auto _ : state) {
-            cv::divide(e, m, s);
-            cv::subtract(1.0, s, s);
-            cv::compare(z, s, shadowed, cv::CMP_GT);
-            intensity.setTo(0.0);
-            m.copyTo(intensity, shadowed);
-            benchmark::ClobberMemory();
-        }
-    });
-#endif
+    }
+    /// s = 1 - e/m, and where z > s there is the mask. As many branches as texels.
+    void copied() {
+        cv::divide(e, m, s);
+        cv::subtract(1.0, s, s);
+        cv::compare(z, s, shadowed, cv::CMP_GT);
+        intensity.setTo(0.0);
+        m.copyTo(intensity, shadowed);
+    }
+    /// The mask times 1 where e/m + z > 1, else times 0. No branch.
+    void multiplied() {
+        cv::divide(e, m, s);
+        cv::add(s, z, s);
+        cv::threshold(s, s, 1.0, 1.0, cv::THRESH_BINARY);
+        cv::multiply(s, m, intensity);
+    }
+};
+
+void add_opencv(int size) {
+    for (const auto& [name, work] : {std::pair{"opencv.copied", &planes::copied}, {"opencv.multiplied", &planes::multiplied}})
+        add(name, "f32x2.f32", size, square(size) * bytes_of<rg32f, float, float>, [size, work = work](benchmark::State& state) {
+            cv::setNumThreads(1);
+            planes all(size);
+            floors::measure(state, [&] { (all.*work)(); });
+        });
 }
+#else
+void add_opencv(int) {}
+#endif
 } // namespace
 
 int main(int count, char** words) {

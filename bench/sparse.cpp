@@ -14,6 +14,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,12 @@ struct scene {
     [[nodiscard]] double grown() const { return clusters::grown_area(tiles, side, kernel_9::radius); }
 };
 
+/// Work on a share of the map, or on all of it, which is read and written.
 template <typename F> void add(const std::string& what, F&& work) {
-    benchmark::RegisterBenchmark((what + "/u8x2/k9/1024").c_str(), work);
+    benchmark::RegisterBenchmark((what + "/u8x2/k9/1024").c_str(), [work](benchmark::State& state) {
+        const double share = work(state), bytes = 2.0 * side * side * sizeof(texel) * share;
+        state.SetBytesProcessed(static_cast<std::int64_t>(static_cast<double>(state.iterations()) * bytes));
+    });
 }
 
 template <typename Isa> void add_all(const std::string& suffix) {
@@ -54,6 +59,7 @@ template <typename Isa> void add_all(const std::string& suffix) {
             simd<Isa>{}.filter_region(image_view<const texel>(all.casters.view()), all.soft.view(), whole(size), all.scratch);
             benchmark::ClobberMemory();
         }
+        return 1.0;
     });
     for (const int percent : {10, 50, 85}) {
         const std::string what = std::to_string(percent) + "pct" + suffix;
@@ -64,6 +70,7 @@ template <typename Isa> void add_all(const std::string& suffix) {
                 benchmark::ClobberMemory();
             }
             state.counters["area"] = some.grown();
+            return some.grown();
         });
         add("frame." + what, [percent](benchmark::State& state) {
             soft_shadow_map<texel, kernel_9, simd<Isa>> map({.width = side, .height = side, .tile = tile});
@@ -78,6 +85,7 @@ template <typename Isa> void add_all(const std::string& suffix) {
                 map.filter();
                 benchmark::ClobberMemory();
             }
+            return scene(percent).grown();
         });
     }
     add("empty" + suffix, [](benchmark::State& state) {
@@ -87,6 +95,7 @@ template <typename Isa> void add_all(const std::string& suffix) {
             map.filter();
             benchmark::ClobberMemory();
         }
+        return 0.0;
     });
 }
 } // namespace

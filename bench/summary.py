@@ -44,7 +44,7 @@ def filters(path):
                             ratios[f"filter.{of}.k{taps}.vs_opencv{suffix}"] = theirs / ours
                         if what.startswith("fast") and (work := time.get(f"work{what.removeprefix('fast')}/{of}/k{taps}/{size}")):
                             ratios[f"filter.{of}.k{taps}.of_work{suffix}"] = work / ours
-            if logs:
+            if len(logs) == len(TAPS) * len(SIZES):
                 ratios[f"filter.{of}.geomean.vs_opencv{suffix}"] = math.exp(sum(logs) / len(logs))
     for what, suffix in (("box", ""), ("box.avx2", ".avx2")):
         narrow, wide = (time.get(f"{what}/u8x2/k{taps}/1024") for taps in (3, 65))
@@ -76,7 +76,7 @@ def receives(path):
         for peer, called in (("copy", "of_copy"), ("scalar", "vs_scalar")):
             if theirs := time.get(f"{peer}/{of}/{size}"):
                 ratios[f"receive.{of}.{called}_{WHERE[size]}{suffix}"] = theirs / of_lanes
-        if theirs := time.get(f"opencv/{of}/{size}"):
+        if theirs := min((time[peer] for form in ("copied", "multiplied") if (peer := f"opencv.{form}/{of}/{size}") in time), default=None):
             where = "" if WHERE[size] == "l2" else "_" + WHERE[size]
             ratios[f"receive.{of.removesuffix('.f32')}.vs_opencv{where}{suffix}"] = theirs / of_lanes
     return ratios
@@ -135,8 +135,9 @@ def pipelines(path):
 
 
 def threads(path):
-    """By the clock on the wall. Where there is one processor, no number tells anything."""
-    runs = json.loads(pathlib.Path(path).read_text())["benchmarks"]
+    """By the clock on the wall. Where there is one processor there is no number."""
+    file = json.loads(pathlib.Path(path).read_text())
+    runs = file["benchmarks"] if file["context"]["num_cpus"] > 1 else []
     time = {run["run_name"]: run["real_time"] for run in runs if run.get("aggregate_name") == "median"}
     of = "u8x2/k9/1024/real_time"
     return {("threads2" if what == "filter" else f"threads2.{what}") + f".scaling{suffix}":
@@ -222,15 +223,21 @@ def main():
     given = parser.parse_args()
     ratios = {}
     for name, ratios_of in MEASURED.items():
-        if (path := given.folder / f"{name}.json").exists():
+        if not (path := given.folder / f"{name}.json").exists():
+            continue
+        try:
             ratios |= ratios_of(path)
+        except json.JSONDecodeError:
+            print(f"left out: {path} was not written to its end", file=sys.stderr)
     for name, ratio in sorted(ratios.items()):
         print(f"{name:52}{ratio:8.3g}")
     gl_table(ratios)
     if not any("opencv" in name for name in ratios):
         print("no peers: OpenCV was not there when the benches were built")
     if given.summary:
-        given.summary.write_text(json.dumps({name: round(ratio, 4) for name, ratio in sorted(ratios.items())}, indent=1) + "\n")
+        written = given.summary.with_name(given.summary.name + ".part")
+        written.write_text(json.dumps({name: round(ratio, 4) for name, ratio in sorted(ratios.items())}, indent=1) + "\n")
+        written.replace(given.summary)
     return 0 if ratios else 1
 
 

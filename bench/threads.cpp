@@ -11,6 +11,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace {
@@ -39,27 +41,29 @@ struct scene {
     }
 };
 
-template <typename Work> void add(const std::string& what, Work work) {
+template <typename Work> void add(const std::string& what, std::size_t bytes, Work work) {
     for (const unsigned threads : {1u, 2u}) {
         const std::string name = what + "/" + std::to_string(threads) + "/u8x2/k9/1024";
-        benchmark::RegisterBenchmark(name.c_str(), [work, threads](benchmark::State& state) {
+        benchmark::RegisterBenchmark(name.c_str(), [work, bytes, threads](benchmark::State& state) {
             scene s;
             jthread_pool pool(threads);
             for ([[maybe_unused]] auto _ : state) {
                 work(s, pool);
                 benchmark::ClobberMemory();
             }
+            state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(bytes));
         })->UseRealTime();
     }
 }
 
 template <typename Isa> void add_all(const std::string& suffix) {
     static constexpr simd<Isa> run;
-    add("filter" + suffix,
+    constexpr std::size_t texels = std::size_t{side} * side, filtered = 2 * texels * sizeof(texel); // read and written
+    add("filter" + suffix, filtered,
         [](scene& s, jthread_pool& pool) { filter(run, s.casters.view(), s.soft.view(), whole(size), s.scratch, pool); });
-    add("sparse" + suffix,
+    add("sparse" + suffix, filtered / 2, // about
         [](scene& s, jthread_pool& pool) { filter(run, s.casters.view(), s.soft.view(), s.tiles, s.scratch, pool); });
-    add("receive" + suffix,
+    add("receive" + suffix, texels * (sizeof(texel) + 2 * sizeof(float)),
         [](scene& s, jthread_pool& pool) { receive(run, s.soft.view(), s.z.view(), s.intensity.view(), {}, pool); });
 }
 } // namespace
