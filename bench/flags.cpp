@@ -1,7 +1,7 @@
 // What flags of the compiler buy, which is to be nothing: lanes are compiled for each target, and the processor is asked which.
 //
 // Names are WHAT/KERNEL/SIZE, and all run in one process.
-//     o2_plain, o3_native   flags/kernels.cpp at -O2 without -march, and at -O3 -march=native
+//     o2_plain, o3_native   flags/kernels.cpp at -O2 without -march, and at -O3 -march=native; with .avx2 behind it in those lanes
 //     asked, unasked        on 64 x 64 texels simd<>, which asks each time, and the same lanes without
 #include "flags/kernels.hpp"
 
@@ -72,8 +72,12 @@ template <typename Backend> void add_small(const std::string& how) {
 } // namespace
 
 int main(int count, char** words) {
-    add("o2_plain", flags::o2_plain());
-    add("o3_native", flags::o3_native());
+    add("o2_plain", flags::o2_plain(flags::lanes::best));
+    add("o3_native", flags::o3_native(flags::lanes::best));
+    if (best_lanes() >= cpu_level::avx2) {
+        add("o2_plain.avx2", flags::o2_plain(flags::lanes::avx2));
+        add("o3_native.avx2", flags::o3_native(flags::lanes::avx2));
+    }
     add_small<simd<>>("asked");
     detail::with_lanes(best_lanes(), []<typename Isa>() { add_small<unasked<Isa>>("unasked"); });
     benchmark::Initialize(&count, words);

@@ -148,11 +148,12 @@ def threads(path):
 def flags(path):
     """What a build without flags takes longer than one with all of them, the median over its kernels; and what asking costs."""
     time, ratios = medians(path), {}
-    plain = [ours / time[f"o3_native/{kernel}"] for name, ours in time.items()
-             for what, kernel in [name.split("/", 1)] if what == "o2_plain" and f"o3_native/{kernel}" in time]
-    if plain:
-        ratios["flags.o2_plain.over_o3_native"] = statistics.median(plain)
-        ratios["flags.o2_plain.over_o3_native.worst"] = max(plain)
+    for suffix in ("", ".avx2"):
+        plain = [ours / native for name, ours in time.items() for what, kernel in [name.split("/", 1)]
+                 if what == f"o2_plain{suffix}" and (native := time.get(f"o3_native{suffix}/{kernel}"))]
+        if plain:
+            ratios[f"flags.o2_plain.over_o3_native{suffix}"] = statistics.median(plain)
+            ratios[f"flags.o2_plain.over_o3_native.worst{suffix}"] = max(plain)
     for name, asked in time.items():
         what, kernel, *_ = name.split("/")
         if what == "asked":

@@ -37,45 +37,51 @@ template <typename Texel> scene<Texel>& scene_of() {
     return one;
 }
 
-template <typename Texel, kernel Kernel> void blur() {
+template <typename Isa, typename Texel, kernel Kernel> void blur() {
     static filter_scratch<Texel, Kernel> scratch(size.width);
     scene<Texel>& s = scene_of<Texel>();
-    simd<>{}.filter_region(s.map.view(), s.soft.view(), whole(size), scratch);
+    simd<Isa>{}.filter_region(s.map.view(), s.soft.view(), whole(size), scratch);
 }
 /// Row by row.
-template <typename... Images> void receive_rows(Images&... images) {
-    for (int y = 0; y < size.height; ++y) receive(simd<>{}, images.view().row_span(y)...);
+template <typename Isa, typename... Images> void receive_rows(Images&... images) {
+    for (int y = 0; y < size.height; ++y) receive(simd<Isa>{}, images.view().row_span(y)...);
 }
-template <typename Texel> void decide() {
+template <typename Isa, typename Texel> void decide() {
     scene<Texel>& s = scene_of<Texel>();
-    receive_rows(s.map, s.z, s.intensity);
+    receive_rows<Isa>(s.map, s.z, s.intensity);
 }
-void decide_codes() {
+template <typename Isa> void decide_codes() {
     scene<rg8>& s = scene_of<rg8>();
-    receive_rows(s.map, s.z16, s.intensity8);
+    receive_rows<Isa>(s.map, s.z16, s.intensity8);
 }
-void decide_at_points() {
+template <typename Isa> void decide_at_points() {
     scene<rg8>& s = scene_of<rg8>();
     for (int y = 0; y < size.height; ++y)
-        receive(simd<>{}, s.map.view(), s.x.view().row_span(y), s.y.view().row_span(y), s.z.view().row_span(y),
+        receive(simd<Isa>{}, s.map.view(), s.x.view().row_span(y), s.y.view().row_span(y), s.z.view().row_span(y),
                 s.intensity.view().row_span(y));
 }
 
+template <typename Isa>
 constexpr flags::kernel kernels[] = {
-    {"filter.u8x2.k5", blur<rg8, fast<gaussian<2>>>},
-    {"filter.u8x2.k9", blur<rg8, fast<gaussian<4>>>},
-    {"filter.u8x2.k9.exact", blur<rg8, gaussian<4>>},
-    {"filter.u8x2.k33", blur<rg8, fast<gaussian<16>>>},
-    {"filter.box.u8x2.r32", blur<rg8, box<32>>},
-    {"filter.u16x2.k9", blur<rg16, fast<gaussian<4>>>},
-    {"filter.u16x2.k9.exact", blur<rg16, gaussian<4>>},
-    {"filter.f32x2.k9", blur<rg32f, fast<gaussian<4>>>},
-    {"receive.u8x2.f32", decide<rg8>},
-    {"receive.u16x2.f32", decide<rg16>},
-    {"receive.u8x2.z16", decide_codes},
-    {"receive.bilinear.u8x2", decide_at_points},
+    {"filter.u8x2.k5", blur<Isa, rg8, fast<gaussian<2>>>},
+    {"filter.u8x2.k9", blur<Isa, rg8, fast<gaussian<4>>>},
+    {"filter.u8x2.k9.exact", blur<Isa, rg8, gaussian<4>>},
+    {"filter.u8x2.k33", blur<Isa, rg8, fast<gaussian<16>>>},
+    {"filter.box.u8x2.r32", blur<Isa, rg8, box<32>>},
+    {"filter.u16x2.k9", blur<Isa, rg16, fast<gaussian<4>>>},
+    {"filter.u16x2.k9.exact", blur<Isa, rg16, gaussian<4>>},
+    {"filter.f32x2.k9", blur<Isa, rg32f, fast<gaussian<4>>>},
+    {"receive.u8x2.f32", decide<Isa, rg8>},
+    {"receive.u16x2.f32", decide<Isa, rg16>},
+    {"receive.u8x2.z16", decide_codes<Isa>},
+    {"receive.bilinear.u8x2", decide_at_points<Isa>},
 };
 
 } // namespace
 
-std::span<const flags::kernel> flags::GNOMON_BENCH_BUILD() { return kernels; }
+std::span<const flags::kernel> flags::GNOMON_BENCH_BUILD([[maybe_unused]] lanes which) {
+#if GNOMON_X86
+    if (which == lanes::avx2) return kernels<avx2>;
+#endif
+    return kernels<best_isa>;
+}

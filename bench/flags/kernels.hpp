@@ -11,7 +11,9 @@ struct kernel {
     void (*run)();
 };
 
-std::span<const kernel> o2_plain();
-std::span<const kernel> o3_native();
+/// In the best lanes of the processor, or in those of AVX2.
+enum class lanes { best, avx2 };
+std::span<const kernel> o2_plain(lanes which);
+std::span<const kernel> o3_native(lanes which);
 
 } // namespace flags

@@ -27,7 +27,7 @@ TIMES = {
     "pipeline": {"copy/u8x2/k9/1024": 2, "stream/u8x2/k9/1024": 1, "receive.copy/u8x2/k9/1024": 3, "both/u8x2/k9/1024": 10},
     "threads": {f"{what}/{count}/u8x2/k9/1024/real_time": time for what, times in
                 {"filter": (10, 5), "sparse": (9, 6), "receive": (8, 5), "filter.avx2": (9, 5)}.items() for count, time in zip((1, 2), times)},
-    "flags": {"o2_plain/a": 10, "o3_native/a": 10, "o2_plain/b": 11, "o3_native/b": 10, "o2_plain/c": 15, "o3_native/c": 10,
+    "flags": {"o2_plain/a": 10, "o3_native/a": 10, "o2_plain/b": 11, "o3_native/b": 10, "o2_plain/c": 15, "o3_native/c": 10, "o2_plain.avx2/a": 12, "o3_native.avx2/a": 10,
               "asked/a/64": 21, "unasked/a/64": 20},
     "raster": {"scalar/sun/e2/1024": 8, "simd/sun/e2/1024": 4, "scalar/lamp/e2/1024": 16, "simd/lamp/e2/1024": 2},
 }
@@ -53,7 +53,8 @@ EXPECTED = {
     "sparse.u8x2.10pct.over_ideal": 1.2, "sparse.u8x2.50pct.over_ideal": 1.5, "sparse.u8x2.85pct.of_dense": 0.98, "sparse.empty.of_dense": 0.005,
     "grid.merge32.ns": 300, "pipeline.u8x2.blur_receive.over_sum_of_floors": 2.5,
     "threads2.scaling": 2, "threads2.scaling.avx2": 1.8, "threads2.sparse.scaling": 1.5, "threads2.receive.scaling": 1.6,
-    "flags.o2_plain.over_o3_native": 1.1, "flags.o2_plain.over_o3_native.worst": 1.5, "flags.asked.over_unasked.a.64": 1.05,
+    "flags.o2_plain.over_o3_native": 1.1, "flags.o2_plain.over_o3_native.worst": 1.5,
+    "flags.o2_plain.over_o3_native.avx2": 1.2, "flags.o2_plain.over_o3_native.worst.avx2": 1.2, "flags.asked.over_unasked.a.64": 1.05,
     "raster.sun.e2.lanes_over_scalar": 2, "raster.lamp.e2.lanes_over_scalar": 8, "raster.lanes_over_scalar": 4,
     "raster.mtris_per_s": 7,
 }
