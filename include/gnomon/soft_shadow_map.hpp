@@ -25,6 +25,13 @@ concept draws_casters = requires(Draw& draw, image_view<Texel> into) {
     { draw(into).depth } -> std::convertible_to<depth_interval>;
 };
 
+/// Marks what casters cover, for who draws several that lie apart: marks(texels, depth).
+struct caster_marks {
+    depth_tiles& tiles;
+    int radius;
+    void operator()(texel_rect texels, depth_interval depth) const noexcept { tiles.mark(texels, depth, radius); }
+};
+
 /// What any soft shadow map is asked, whatever it lives in: from its size(), tiles(), soft() and decision.
 template <typename Map> class asked_for_shadow {
   public:
@@ -100,6 +107,11 @@ class soft_shadow_map : public asked_for_shadow<soft_shadow_map<Texel, Kernel, B
         const auto touched = draw(casters());
         mark(touched.texels, touched.depth);
     }
+    /// The same where `draw` marks by itself, piece by piece: a mesh of many things that lie apart then costs what these cover.
+    ///     map.cast([&](auto texels, const auto& marks) { cast_triangles(texels, mesh, light, faces::both, marks); });
+    template <std::invocable<image_view<Texel>, const caster_marks&> Draw> void cast(Draw&& draw) {
+        draw(casters(), caster_marks{tiles_, Kernel::radius});
+    }
 
     /// The map of casters, for an engine that keeps its own order. What it writes and does not mark is neither filtered nor
     /// cleared.
@@ -157,7 +169,8 @@ class soft_shadow_map : public asked_for_shadow<soft_shadow_map<Texel, Kernel, B
     }
     void cast_texel(texel_rect r, float s, const Texel& caster) noexcept {
         edit(r, [&caster](Texel& t) { t.cast(caster); });
-        mark(clip(r, size()), {saturate(s), saturate(s)});
+        const float depth = same(s, s) ? saturate(s) : 1.0f; // of NaN too what it is stored as
+        mark(clip(r, size()), {depth, depth});
     }
 
     [[no_unique_address]] Backend run_;

@@ -17,11 +17,14 @@
 
 namespace {
 using gnomon::band_scratch;
+using gnomon::box;
 using gnomon::executor;
 using gnomon::extent;
 using gnomon::gaussian;
 using gnomon::image;
 using gnomon::rg8;
+using gnomon::scalar;
+using gnomon::simd;
 using gnomon::texel_rect;
 using gnomon::tile_grid;
 using test::dice;
@@ -264,6 +267,32 @@ TEST_CASE("after a frame whose map was cut otherwise the next one is filtered wh
     gnomon::refilter(gnomon::scalar{}, soft.view().part({0, 0, 1, 1}), soft.view(), before, tile_grid{}, scratch,
                      backwards{&count});
     CHECK(test::differences(soft, image<rg8>(size, rg8::clear())) == 0);
+}
+
+TEST_CASE("bands of a box whose sums run have three quarters of the rows that these are made of, or more, and those of parts too") {
+    const image<rg8> map({512, 600}, rg8::caster(0.5f));
+    image<rg8> to(map.size());
+    gnomon::tile_grid all(map.size(), 16);
+    all.mark(whole(map.size()), 100);
+    const auto jobs_of = [&]<typename Kernel, typename Backend>(Kernel, const Backend& run, bool parts) {
+        band_scratch<rg8, Kernel> scratch(512);
+        int jobs = 0;
+        const auto on = [&jobs](int count, const auto& job) {
+            jobs = count;
+            gnomon::sequential{}(count, job);
+        };
+        if (parts)
+            gnomon::filter(run, map.view(), to.view(), all, scratch, on);
+        else
+            gnomon::filter(run, map.view(), to.view(), whole(map.size()), scratch, on);
+        return jobs;
+    };
+    for (const bool parts : {false, true}) {
+        CHECK(jobs_of(box<100>{}, simd<gnomon::emulated<16>>{}, parts) == 4); // of 600 rows, where sums are made of 200
+        CHECK(jobs_of(box<4>{}, simd<gnomon::emulated<16>>{}, parts) == 19);
+        CHECK(jobs_of(box<100>{}, scalar{}, parts) == 19);
+        CHECK(jobs_of(gnomon::tent<100>{}, simd<gnomon::emulated<16>>{}, parts) == 19);
+    }
 }
 
 TEST_CASE("an image of receivers in bands is decided as row by row, where all three images are") {

@@ -1,6 +1,8 @@
 // The facade: everything it does is a stage that can be had alone, so the stages are its oracle.
 #include "suite.hpp"
 
+#include "../support/bits.hpp"
+
 #include <doctest/doctest.h>
 
 #include <type_traits>
@@ -197,4 +199,26 @@ TEST_CASE("a map that was copied or moved goes on where the other was") {
     fresh.cast({5, 5, 9, 9}, 0.25f);
     fresh.filter();
     CHECK(same_bits_in(moved, fresh));
+}
+
+TEST_CASE("casters that are marked piece by piece cost what each covers, and each tile knows the depths of its own") {
+    map_of<gnomon::rg16> map({.width = 256, .height = 256, .tile = 32});
+    const texel_rect first{4, 4, 20, 20}, last{230, 230, 250, 250};
+    map.cast([&](auto texels, const auto& marks) {
+        texels.fill(first, gnomon::rg16::caster(0.25f));
+        marks(first, {0.25f, 0.25f});
+        texels.fill(last, gnomon::rg16::caster(0.75f));
+        marks(last, {0.75f, 0.75f});
+    });
+    map.filter();
+    CHECK(map.tiles().tiles().count() == 2);
+    CHECK(
+        (map.reaches(first, {0.5f, 0.5f}) && !map.reaches(last, {0.5f, 0.5f}) && !map.reaches({100, 100, 120, 120}, {1.0f, 1.0f})));
+    CHECK((map.shadow(10, 10, 0.5f) > 0.9f && map.shadow(240, 240, 0.9f) > 0.9f));
+}
+
+TEST_CASE("a caster at a depth that is no number lies on the far plane, where it is stored and where it is marked") {
+    map_of<gnomon::rg16> map({.width = 32, .height = 32, .tile = 32});
+    map.cast({4, 4, 20, 20}, test::nan<float>);
+    CHECK((map.reaches({4, 4, 20, 20}, {0.5f, 1.5f}) && !map.reaches({4, 4, 20, 20}, {0.5f, 0.75f})));
 }

@@ -127,6 +127,19 @@ TEST_CASE("a map of which so much has to be written that the whole is cheaper is
     CHECK_FALSE(gnomon::regions_to_filter<box<5>>(tile_grid{}).all());
 }
 
+TEST_CASE("where sums run, parts are weighed by what is read for them: flat steps within a wide radius cost more than the whole") {
+    constexpr int side = 512, tile = 16;
+    tile_grid steps({side, side}, tile); // a diagonal of tiles, whose surroundings come in pieces as flat as these
+    for (int i = 0; i < side / tile; ++i) steps.mark({i * tile, i * tile, (i + 1) * tile, (i + 1) * tile}, 64);
+    CHECK((!gnomon::regions_to_filter<box<64>>(steps).all() && gnomon::regions_to_filter<box<64>>(steps, false, true).all()));
+    tile_grid corner({side, side}, tile); // of one piece
+    corner.mark({0, 0, side / 4, side / 4}, 64);
+    CHECK_FALSE(gnomon::regions_to_filter<box<64>>(corner, false, true).all());
+    const texel_rect r{10, 20, 42, 120};
+    CHECK(gnomon::detail::filter_cost<box<8>>(r, false) == 3200.0);
+    CHECK(gnomon::detail::filter_cost<box<8>>(r, true) == doctest::Approx(0.2 * 48 * 116 + 0.3 * 48 * 100 + 0.5 * 3200));
+}
+
 TEST_CASE("clearing the marked tiles clears every texel of them and no other") {
     dice roll(103);
     for (int round = 0; round < 50; ++round) {

@@ -198,6 +198,64 @@ TEST_CASE("lanes skip the triangles that a place for them does not touch, as the
     CHECK(skipped > 5000);
 }
 
+TEST_CASE("of a triangle wider than what is looked up at once, only pieces are drawn that a place for them touches") {
+    mesh_data m;
+    m.add({-3.0, 0.0, -1.0}, {3.0, 0.0, -1.0}, {0.0, 0.0, 2.0});
+    constexpr extent wide{1024, 512};
+    directional_light sun({0.0, -1.0, 0.0});
+    sun.add_caster(bounding_box{{-3, 0, -1}, {3, 0, 2}});
+    const light_frame light = sun.frame(wide, 1);
+    depth_tiles tiles(wide, 32);
+    tiles.mark({480, 128, 512, 160}, {0.0f, 1.0f}, 0);
+    const record all = draw(scalar{}, m.mesh(), light, everywhere, faces::both),
+                 some = draw(scalar{}, m.mesh(), light, everywhere, faces::both, tiles);
+    CHECK(all.texels.size() > 100000);
+    CHECK((some.texels.size() >= 32 * 32 && some.texels.size() <= 32 * (32 + 2 * 63)));
+    for_each_isa([&]<typename Isa>() { CHECK(draw(simd<Isa>{}, m.mesh(), light, everywhere, faces::both, tiles) == some); });
+}
+
+TEST_CASE_TEMPLATE(
+    "marks are told of each triangle that covers something, in its order and in lanes as plainly, and hold all it covers", Texel,
+    rg16, rga8, tm8) {
+    struct told {
+        texel_rect texels;
+        depth_interval depth;
+        bool operator==(const told&) const = default;
+    };
+    dice roll{std::mt19937_64(40)};
+    int marks = 0, empty = 0;
+    for (int i = 0; i < 100; ++i) {
+        const light_frame light = test::any_light(roll, i, map_size);
+        const mesh_data m = any_mesh(roll, i);
+        const auto triangles = static_cast<int>(m.indices.size() / 3);
+        const auto cast = [&](auto run, auto&&... more) {
+            image<Texel> map(map_size, Texel::clear());
+            std::vector<told> all;
+            const auto mark = [&all](texel_rect r, depth_interval depth) { all.push_back({r, depth}); };
+            const light_footprint touched = cast_triangles(run, map.view(), m.mesh(), light, more..., faces::both, mark);
+            CHECK(touched == cast_triangles(run, map.view(), m.mesh(), light, more...));
+            return all;
+        };
+        const std::vector<told> expected = cast(scalar{});
+        std::vector<told> one_by_one; // each triangle as a mesh
+        for (int k = 0; k < triangles; ++k) {
+            mesh_data single{m.positions, {}};
+            for (std::size_t c = 0; c < 3; ++c) single.indices.push_back(m.indices[3 * static_cast<std::size_t>(k) + c]);
+            image<Texel> map(map_size, Texel::clear());
+            const light_footprint f = cast_triangles(map.view(), single.mesh(), light);
+            if (f.texels.empty())
+                ++empty;
+            else
+                one_by_one.push_back({f.texels, f.depth});
+        }
+        CHECK(expected == one_by_one);
+        marks += static_cast<int>(expected.size());
+        for_each_isa([&]<typename Isa>() { CHECK(cast(simd<Isa>{}) == expected); });
+        if constexpr (Texel::effects.translucency) CHECK(cast(simd<>{}, 0.5f) == cast(scalar{}, 0.5f));
+    }
+    CHECK((marks > 300 && empty > 100));
+}
+
 TEST_CASE_TEMPLATE("lanes cast and bound as the scalar rasteriser does, whatever is in the map, and write nothing beside it", Texel,
                    rg8, rg16, rg16f, rg32f, tm8, test::paper8, rga8, rgb16, rgba8, rgba32f, test::ratio_rgba16) {
     dice roll{std::mt19937_64(33)};

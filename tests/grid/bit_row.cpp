@@ -6,6 +6,9 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cstdlib>
+#include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -180,3 +183,18 @@ static_assert(longest_run(63, 129, 64) == 64);
 static_assert(longest_run(64, 128, 100) == 36);
 static_assert(longest_run(5, 5, 5) == 0);
 } // namespace
+
+TEST_CASE("a row of as many bits as there are ints is set, reset and searched to its end") {
+    constexpr int size = std::numeric_limits<int>::max();
+    const auto give_back = [](bit_word* words) { std::free(words); };
+    const std::unique_ptr<bit_word[], decltype(give_back)> words( // 256 MiB of zeros, of which nearly all are never looked at
+        static_cast<bit_word*>(std::calloc(static_cast<std::size_t>(gnomon::words_for(size)), sizeof(bit_word))), give_back);
+    REQUIRE(words);
+    const gnomon::bit_row row{words.get(), size};
+    row.set(size - 70, size - 1);
+    CHECK((row.next_set(size - 200) == size - 70 && row.next_clear(size - 70) == size - 1 && row.next_set(size - 1) == size));
+    row.set(size - 1, size);
+    CHECK((row.all(size - 70, size) && row.next_clear(size - 70) == size));
+    row.reset(size - 70, size);
+    CHECK((!row.any(size - 300, size) && row.next_set(size - 300) == size));
+}

@@ -27,6 +27,17 @@ concept backend_for = receives<B, Texel> && kernel<Kernel> &&
                           { run.filter_region(from, to, region, scratch) } noexcept;
                       };
 
+namespace detail {
+/// Does the time of a filter not know its radius?
+template <typename Backend, typename Kernel, typename Texel>
+inline constexpr bool sums_run = [] {
+    if constexpr (requires { Backend::template sums_run<Kernel, Texel>; })
+        return Backend::template sums_run<Kernel, Texel>;
+    else
+        return false;
+}();
+} // namespace detail
+
 /// Filters what the grid marks: filter(scalar{}, casters, soft, tiles, scratch).
 /// The scratch says which kernel.
 ///
@@ -39,7 +50,8 @@ void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> fr
             filter_scratch<Texel, Kernel>& scratch) noexcept {
     GNOMON_ASSERT(tiles.size().empty() || (tiles.size() == from.size() && tiles.size() == to.size()),
                   "gnomon: the tile grid and both images must have the same size: make all three from one extent");
-    for_each_region_to_filter<Kernel>(tiles, [&](texel_rect r) { run.filter_region(from, to, r, scratch); });
+    const regions_to_filter<Kernel> regions(tiles, false, detail::sums_run<Backend, Kernel, Texel>);
+    regions([&](texel_rect r) { run.filter_region(from, to, r, scratch); });
 }
 
 /// Receivers one to one on texels: receive(simd<>{}, soft.row_span(y), depths, intensities). See receive/receive.hpp. Depths in codes

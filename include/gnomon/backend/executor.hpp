@@ -39,8 +39,13 @@ namespace detail {
 /// Fewer texels are not worth the handing out.
 inline constexpr int texels_in_a_band = 1 << 14;
 /// Bands of so many texels, no more than `most`.
-[[nodiscard]] constexpr int band_count(std::int64_t texels, int most) noexcept {
-    return static_cast<int>(lesser<std::int64_t>(texels / texels_in_a_band + 1, most));
+[[nodiscard]] constexpr int band_count(std::int64_t texels, int most, std::int64_t at_least = texels_in_a_band) noexcept {
+    return static_cast<int>(lesser<std::int64_t>(texels / at_least + 1, most));
+}
+/// And of no fewer than this of a map of such a width. A box whose sums run makes them first of the rows around a band, 2R of them.
+template <typename Backend, typename Kernel, typename Texel> [[nodiscard]] constexpr std::int64_t least_band(int width) noexcept {
+    const std::int64_t around = sums_run<Backend, Kernel, Texel> ? std::int64_t{2} * Kernel::radius * width : 0;
+    return greater<std::int64_t>(around, texels_in_a_band);
 }
 } // namespace detail
 
@@ -71,7 +76,8 @@ inline constexpr int rows_in_a_band = 8;
 /// The regions that walk(f) hands out, shared among bands of about the same area.
 template <typename Walk> class band_cut {
   public:
-    band_cut(const Walk& walk, int most) noexcept : walk_(walk), texels_(texels_in(walk)), bands_(band_count(texels_, most)) {}
+    band_cut(const Walk& walk, int most, std::int64_t at_least = texels_in_a_band) noexcept
+        : walk_(walk), texels_(texels_in(walk)), bands_(band_count(texels_, most, at_least)) {}
 
     [[nodiscard]] int size() const noexcept { return bands_; }
     /// Calls f(texel_rect) for what belongs to a band: whole rows of a region; each row belongs to one. A band too many has none.
@@ -97,7 +103,7 @@ template <typename Walk> class band_cut {
     std::int64_t texels_;
     int bands_;
 };
-template <typename Walk> band_cut(const Walk&, int) -> band_cut<Walk>;
+template <typename Walk> band_cut(const Walk&, int, std::int64_t = 0) -> band_cut<Walk>;
 
 } // namespace detail
 
@@ -117,7 +123,7 @@ void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> fr
     region = clip(clip(region, to.size()), from.size());
     if (region.empty()) return;
     const auto walk = [region](auto&& f) { f(region); };
-    const detail::band_cut cut(walk, scratch.size());
+    const detail::band_cut cut(walk, scratch.size(), detail::least_band<Backend, Kernel, Texel>(region.width()));
     on(cut.size(), [&](int band) { cut.for_each(band, [&](texel_rect r) { run.filter_region(from, to, r, scratch[band]); }); });
 }
 
@@ -130,12 +136,12 @@ void refilter(const Backend& run, std::type_identity_t<image_view<const Texel>> 
     GNOMON_ASSERT(now.size().empty() || (now.size() == from.size() && now.size() == to.size()),
                   "gnomon: the tile grid and both images must have the same size: make all three from one extent");
     const bool comparable = same_tiles(before, now) || before.empty() || now.empty();
-    const regions_to_filter<Kernel> needed(now, !comparable);
+    const regions_to_filter<Kernel> needed(now, !comparable, detail::sums_run<Backend, Kernel, Texel>);
     const auto left = [&](auto&& f) {
         if (!needed.all()) for_each_region_left(before, now, Kernel::radius, f);
     };
     const detail::band_cut cleared(left, scratch.size());
-    const detail::band_cut filtered(needed, scratch.size());
+    const detail::band_cut filtered(needed, scratch.size(), detail::least_band<Backend, Kernel, Texel>(to.width()));
     on(greater(cleared.size(), filtered.size()), [&](int band) {
         cleared.for_each(band, [&](texel_rect r) { clear_region(to, r); });
         filtered.for_each(band, [&](texel_rect r) { run.filter_region(from, to, r, scratch[band]); });

@@ -104,6 +104,10 @@ inline constexpr bool runs_sums = [] {
         return false;
 }();
 
+/// Do they, in whole numbers or in doubles?
+template <kernel Kernel, texel_format Texel>
+inline constexpr bool sums_of_box_run = runs_sums<Kernel, Texel> || runs_in_doubles<Kernel, Texel>;
+
 /// filter_region for a box whose sums run, for a region within both images. False, with part of it written, where a row is not summable.
 template <typename Box, kernel Kernel, texel_format Texel>
 bool filter_box(image_view<const Texel> from, image_view<Texel> to, texel_rect region) noexcept {

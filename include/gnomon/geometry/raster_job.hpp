@@ -26,6 +26,8 @@ struct raster_job {
     void* rows;
     bool (*touches)(const void* where, texel_rect around); ///< null: always
     const void* where;
+    void (*mark)(void* marks, texel_rect texels, depth_interval depth); ///< null: nobody is told
+    void* marks;
     /// Draws a triangle that planes may cut.
     void (*cut)(const raster_job& job, int first, touched_texels& touched);
     /// Draws a run in lanes.

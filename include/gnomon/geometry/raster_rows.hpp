@@ -67,8 +67,11 @@ template <typename Isa> struct rasterizer {
     template <typename Row>
     GNOMON_LANES_VOID void draw_row(const job& j, const depths& d, doubles on_row, int y, int x0, int x1, float* z,
                                     detail::touched_texels& touched) {
-        for (int x = x0; x < x1; x += detail::row_piece)
-            draw_piece<Row>(j, d, on_row, y, x, lesser(x1, x + detail::row_piece), z, touched);
+        const int piece = j.touches == nullptr ? detail::row_piece : detail::looked_up;
+        for (int x = x0, end; x < x1; x = end) {
+            end = lesser(x1, x + piece);
+            if (j({x, y, end, y + 1})) draw_piece<Row>(j, d, on_row, y, x, end, z, touched);
+        }
     }
 
     template <typename Row>
@@ -79,7 +82,8 @@ template <typename Isa> struct rasterizer {
         draw_row<Row>(j, d, depths::on_rows(d, Isa::repeat(static_cast<double>(y) + 0.5)), y, x0, x1, z, touched);
     }
 
-    template <typename Row>
+    /// `LookedUp`: by pieces of runs.
+    template <typename Row, bool LookedUp>
     static void draw_few(const batch& b, const job& j, int k, const texel_rect& around, detail::touched_texels& touched) {
         const depths d = depths::of(triangles::depth_of(b, j, k), Row::saturated);
         detail::touched_texels here = touched;
@@ -87,7 +91,11 @@ template <typename Isa> struct rasterizer {
         for (int i = 0; i < around.height(); ++i) {
             const int begin = static_cast<int>(b.begin[i].lane[k]), end = static_cast<int>(b.end[i].lane[k]);
             if (begin >= end) continue;
-            draw_piece<Row>(j, d, Isa::repeat(b.on_row[i].lane[k]), around.y0 + i, around.x0 + begin, around.x0 + end, z, here);
+            const doubles on_row = Isa::repeat(b.on_row[i].lane[k]);
+            if constexpr (!LookedUp)
+                draw_piece<Row>(j, d, on_row, around.y0 + i, around.x0 + begin, around.x0 + end, z, here);
+            else
+                draw_row<Row>(j, d, on_row, around.y0 + i, around.x0 + begin, around.x0 + end, z, here);
         }
         touched = here;
     }
@@ -117,20 +125,32 @@ template <typename Isa> struct rasterizer {
         touched = here;
     }
 
+    template <typename Row>
+    GNOMON_LANES_VOID void draw_one(const batch& b, const job& j, int k, int first, detail::touched_texels& touched) {
+        const auto has = [k](std::uint32_t bits) { return (bits >> k & 1) != 0; };
+        if (!has(b.plain)) return j.cut(j, first + 3 * k, touched);
+        const texel_rect around = triangles::box_of(b, k);
+        if (!j.takes_part(around, b.area.lane[k])) return;
+        if (has(b.few) && j.touches == nullptr)
+            draw_few<Row, false>(b, j, k, around, touched);
+        else if (has(b.few))
+            draw_few<Row, true>(b, j, k, around, touched);
+        else
+            draw_rows<Row>(b, j, k, around, touched);
+    }
+
     template <typename Row> static void draw(const batch& b, const job& j, int first, detail::touched_texels& touched) {
         for (std::uint32_t left = b.drawn; left != 0; left &= left - 1) {
             const int k = std::countr_zero(left);
-            const auto has = [k](std::uint32_t bits) { return (bits >> k & 1) != 0; };
-            if (!has(b.plain)) {
-                j.cut(j, first + 3 * k, touched);
+            if (j.mark == nullptr) {
+                draw_one<Row>(b, j, k, first, touched);
                 continue;
             }
-            const texel_rect around = triangles::box_of(b, k);
-            if (!j.takes_part(around, b.area.lane[k])) continue;
-            if (has(b.few))
-                draw_few<Row>(b, j, k, around, touched);
-            else
-                draw_rows<Row>(b, j, k, around, touched);
+            detail::touched_texels here;
+            draw_one<Row>(b, j, k, first, here);
+            if (here.box.empty()) continue;
+            j.mark(j.marks, here.footprint().texels, here.footprint().depth);
+            touched.add(here);
         }
     }
 

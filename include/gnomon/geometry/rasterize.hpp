@@ -3,6 +3,7 @@
 
 #include <gnomon/geometry/footprint.hpp>
 #include <gnomon/geometry/scan.hpp>
+#include <gnomon/simd/region.hpp>
 #include <gnomon/texel/image.hpp>
 #include <gnomon/texel/texel.hpp>
 
@@ -28,6 +29,13 @@ inline constexpr double raster_depth_error = 1.0 / 33554432.0;
 template <typename T>
 concept marked_texels =
     requires(const T& where, texel_rect r) { where.touches(r); } || requires(const T& where, texel_rect r) { where(r); };
+
+/// Is told of each triangle that covered something: the texels, and the depths in [0, 1]. A grid's mark, above all.
+template <typename T>
+concept takes_marks = requires(T& marks, texel_rect r, depth_interval depth) { marks(r, depth); };
+struct marks_nothing {
+    constexpr void operator()(texel_rect, depth_interval) const noexcept {}
+};
 
 /// The region without a limit, which is the largest map there is, and the test that skips nothing.
 inline constexpr texel_rect everywhere = whole({light_frame::largest_side, light_frame::largest_side});
@@ -154,6 +162,20 @@ class depth_surface {
     double area_{};
 };
 
+/// A corner on the map. Each product is rounded before it is added, for a compiler that fuses the two: the lanes, which never do, have
+/// the same corner then, and edges that they share with what is drawn here leave no gap.
+[[nodiscard]] inline glm::dvec4 project(const glm::dmat4& to_map, const glm::dvec3& p) noexcept {
+    const auto times = [](double a, double b) {
+        double product = a * b;
+        GNOMON_SETTLE(product);
+        return product;
+    };
+    glm::dvec4 corner;
+    for (int r = 0; r < 4; ++r)
+        corner[r] = (times(to_map[0][r], p.x) + times(to_map[1][r], p.y)) + (times(to_map[2][r], p.z) + to_map[3][r]);
+    return corner;
+}
+
 /// The three corners of triangle `first / 3`, projected. Empty if an index is off the positions.
 [[nodiscard]] inline projected_polygon project(const triangle_mesh& mesh, int first, const glm::dmat4& to_map) noexcept {
     projected_polygon triangle;
@@ -163,7 +185,7 @@ class depth_surface {
             triangle.count = 0; // of two corners a cut would make three
             break;
         }
-        triangle.add(to_map * glm::dvec4(glm::dvec3(mesh.positions[static_cast<int>(index)]), 1.0));
+        triangle.add(project(to_map, glm::dvec3(mesh.positions[static_cast<int>(index)])));
     }
     return triangle;
 }
@@ -184,6 +206,12 @@ struct touched_texels {
         nearest = lesser(nearest, lesser(first, last));
         farthest = greater(farthest, greater(first, last));
     }
+    constexpr void add(const touched_texels& other) noexcept {
+        box = {lesser(box.x0, other.box.x0), lesser(box.y0, other.box.y0), greater(box.x1, other.box.x1),
+               greater(box.y1, other.box.y1)};
+        nearest = lesser(nearest, other.nearest);
+        farthest = greater(farthest, other.farthest);
+    }
     [[nodiscard]] constexpr light_footprint footprint() const noexcept {
         if (box.empty()) return {};
         return {box, {saturate(nearest), saturate(farthest)}};
@@ -196,6 +224,9 @@ template <marked_texels Where>
 [[nodiscard]] constexpr bool touches(const Where& where, texel_rect r) {
     return where.touches(r);
 }
+
+/// A run of texels is looked up in pieces of so many, where something says where to look.
+inline constexpr int looked_up = 64;
 
 /// Calls run(depth, y, x0, x1) for every run of texels of `target` that a triangle covers.
 template <marked_texels Where, typename Run>
@@ -212,6 +243,42 @@ void draw_triangle(const triangle_mesh& mesh, int first, const glm::dmat4& to_ma
     if (!shows(surface.area(), handedness, side)) return;
     scan(corners, visible.count, around, [&](int y, int x0, int x1) { run(surface.depth(), y, x0, x1); });
 }
+
+/// rasterize, which says what each triangle touched.
+template <typename Sink, marked_texels Where, takes_marks Marks>
+light_footprint rasterize_and_mark(const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side, Sink& sink,
+                                   const Where& where, Marks& marks) {
+    target = clip(target, light.size());
+    if (target.empty()) return {}; // so is an invalid frame's
+    const glm::dmat4 to_map = product(light.matrix(), mesh.model);
+    const double handedness = volume(to_map);
+
+    touched_texels touched;
+    for (int first = 0; mesh.indices.size() - first > 2; first += 3) {
+        touched_texels here;
+        const auto piece = [&](const triangle_depth& depth, int y, int x0, int x1) {
+            const float begin = depth(x0, y);
+            float end = begin;
+            sink(x0, y, begin);
+            for (int x = x0 + 1; x < x1; ++x) sink(x, y, end = depth(x, y));
+            here.add(y, x0, x1, begin, end);
+        };
+        const auto run = [&](const triangle_depth& depth, int y, int x0, int x1) {
+            if constexpr (std::same_as<Where, touches_everything>)
+                return piece(depth, y, x0, x1);
+            else
+                for (int x = x0, end; x < x1; x = end) {
+                    end = lesser(x1, x + looked_up);
+                    if (touches(where, {x, y, end, y + 1})) piece(depth, y, x, end);
+                }
+        };
+        draw_triangle(mesh, first, to_map, handedness, light, target, side, where, run);
+        if (here.box.empty()) continue;
+        marks(here.footprint().texels, here.footprint().depth);
+        touched.add(here);
+    }
+    return touched.footprint();
+}
 } // namespace detail
 
 /// Calls `sink(x, y, depth)` once per triangle for every texel of `target`, a part of the map, whose centre the triangle covers.
@@ -224,53 +291,41 @@ void draw_triangle(const triangle_mesh& mesh, int first, const glm::dmat4& to_ma
 /// [0, 1]: rounding to float is all of it. It is limited to the depths of the triangle's corners, but not to [0, 1]: a directional
 /// light's near plane cuts nothing off, so that casters before it keep their silhouette. A spot light's does. No far plane does.
 ///
-/// `where` may skip a triangle by the box around it. Returns what was touched: the texels, and the depths in [0, 1].
+/// `where` may skip a triangle by the box around it, and up to 64 texels of a row of it. Returns what was touched: the texels, and the
+/// depths in [0, 1].
 /// The order is that of the indices, then rows, then columns. Nothing is allocated. Nothing is drawn by an invalid frame.
 template <typename Sink, marked_texels Where = touches_everything>
     requires requires(Sink& sink, int i, float depth) { sink(i, i, depth); }
 light_footprint rasterize(const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side, Sink&& sink,
                           const Where& where = {}) {
-    target = clip(target, light.size());
-    if (target.empty()) return {}; // so is an invalid frame's
-    const glm::dmat4 to_map = detail::product(light.matrix(), mesh.model);
-    const double handedness = detail::volume(to_map);
-
-    detail::touched_texels touched;
-    const auto run = [&](const detail::triangle_depth& depth, int y, int x0, int x1) {
-        const float first = depth(x0, y);
-        float last = first;
-        sink(x0, y, first);
-        for (int x = x0 + 1; x < x1; ++x) sink(x, y, last = depth(x, y));
-        touched.add(y, x0, x1, first, last);
-    };
-    for (int first = 0; mesh.indices.size() - first > 2; first += 3)
-        detail::draw_triangle(mesh, first, to_map, handedness, light, target, side, where, run);
-    return touched.footprint();
+    marks_nothing nothing;
+    return detail::rasterize_and_mark(mesh, light, target, side, sink, where, nothing);
 }
 
 /// Casts triangles into a map: `tiles.mark(cast_triangles(texels, mesh, light).texels, guard)`. Texel (0, 0) is that of the map.
 ///
-/// Depths are clamped to [0, 1]. The order of meshes and triangles does not show: see texel::cast. Returns what was touched.
-template <texel_format Texel>
+/// Depths are clamped to [0, 1]. The order of meshes and triangles does not show: see texel::cast. Returns what was touched, in one box;
+/// `marks` is told triangle by triangle, for meshes of many things that lie apart.
+template <texel_format Texel, takes_marks Marks = marks_nothing>
 light_footprint cast_triangles(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
-                               faces side = faces::both) {
-    return rasterize(mesh, light, whole(texels.size()), side, [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s)); });
+                               faces side = faces::both, Marks&& marks = {}) {
+    const auto cast = [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s)); };
+    return detail::rasterize_and_mark(mesh, light, whole(texels.size()), side, cast, touches_everything{}, marks);
 }
 
 /// The same for casters that let 1 - `opacity` of the light through.
-template <texel_format Texel>
+template <texel_format Texel, takes_marks Marks = marks_nothing>
     requires(Texel::effects.translucency)
 light_footprint cast_triangles(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light, float opacity,
-                               faces side = faces::both) {
-    return rasterize(mesh, light, whole(texels.size()), side,
-                     [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s, opacity)); });
+                               faces side = faces::both, Marks&& marks = {}) {
+    const auto cast = [&](int x, int y, float s) { texels(x, y).cast(Texel::caster(s, opacity)); };
+    return detail::rasterize_and_mark(mesh, light, whole(texels.size()), side, cast, touches_everything{}, marks);
 }
 
 /// Ends the shadows in a map at the first receiver behind each caster. Call it when all casters are in: see texel::bound.
 ///
-/// `where` may skip triangles where nothing casts: bound_triangles(texels, ground, light, faces::both, tiles). `region` limits
-/// the work for receivers that are larger than that, such as a ground. Receivers before the near plane end nothing. Returns what
-/// was touched, caster or not.
+/// `where` may skip what lies where nothing casts: bound_triangles(texels, ground, light, faces::both, tiles). `region` limits the work
+/// too. Receivers before the near plane end nothing. Returns what was touched, caster or not.
 template <texel_format Texel, marked_texels Where = touches_everything>
     requires(Texel::effects.far_bound)
 light_footprint bound_triangles(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,

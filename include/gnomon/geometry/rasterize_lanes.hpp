@@ -80,10 +80,19 @@ inline void draw_cut(const raster_job& job, int first, touched_texels& touched) 
                   [&](const triangle_depth& depth, int y, int x0, int x1) { job.run(job, depth, y, x0, x1, touched); });
 }
 
+/// One mark, by the address of who takes it; null for nobody.
+template <typename Marks> void (*mark_of())(void*, texel_rect, depth_interval) {
+    if constexpr (std::same_as<std::remove_const_t<Marks>, marks_nothing>)
+        return nullptr;
+    else
+        return [](void* marks, texel_rect r, depth_interval depth) { (*static_cast<Marks*>(marks))(r, depth); };
+}
+
 /// `Kind` of rows find in `rows` what they need; `row` is what they call, if they do.
-template <typename Isa, typename Kind, typename Where>
+template <typename Isa, typename Kind, typename Where, typename Marks>
 light_footprint rasterize_rows(const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side,
-                               const Where& where, void* rows, void (*row)(void*, int, int, int, const float*) = nullptr) {
+                               const Where& where, Marks& marks, void* rows,
+                               void (*row)(void*, int, int, int, const float*) = nullptr) {
     target = clip(target, light.size());
     if (target.empty()) return {};
     const glm::dmat4 to_map = product(light.matrix(), mesh.model);
@@ -101,6 +110,8 @@ light_footprint rasterize_rows(const triangle_mesh& mesh, const light_frame& lig
                    .rows = rows,
                    .touches = nullptr,
                    .where = &where,
+                   .mark = mark_of<Marks>(),
+                   .marks = const_cast<std::remove_const_t<Marks>*>(&marks), // as const as it was when it is called
                    .cut = draw_cut,
                    .run = nullptr};
     if constexpr (!std::same_as<Where, touches_everything>)
@@ -114,6 +125,21 @@ light_footprint rasterize_rows(const triangle_mesh& mesh, const light_frame& lig
     return draw(job);
 }
 
+/// Calls `sink` texel by texel.
+template <typename Isa, typename Sink, typename Where, typename Marks>
+light_footprint rasterize_on(const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side, Sink& sink,
+                             const Where& where, Marks& marks) {
+    if constexpr (has_lanes<Isa>) {
+        const auto row = [](void* object, int y, int x0, int x1, const float* z) {
+            for (int x = x0; x < x1; ++x) (**static_cast<Sink**>(object))(x, y, z[x - x0]);
+        };
+        Sink* object = &sink;
+        return rasterize_rows<Isa, calls>(mesh, light, target, side, where, marks, &object, row);
+    } else {
+        return rasterize_and_mark(mesh, light, target, side, sink, where, marks);
+    }
+}
+
 } // namespace detail
 
 /// rasterize of geometry/rasterize.hpp in lanes: the same texels at the same depths in the same order, bit for bit where
@@ -125,49 +151,42 @@ template <typename Isa, typename Sink, marked_texels Where = touches_everything>
     requires requires(Sink& sink, int i, float depth) { sink(i, i, depth); }
 light_footprint rasterize(simd<Isa>, const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side,
                           Sink&& sink, const Where& where = {}) {
-    if constexpr (detail::has_lanes<Isa>) {
-        using sink_type = std::remove_reference_t<Sink>;
-        const auto row = [](void* object, int y, int x0, int x1, const float* z) {
-            for (int x = x0; x < x1; ++x) (**static_cast<sink_type**>(object))(x, y, z[x - x0]);
-        };
-        sink_type* object = &sink;
-        return detail::rasterize_rows<Isa, detail::calls>(mesh, light, target, side, where, &object, row);
-    } else {
-        return rasterize(mesh, light, target, side, sink, where);
-    }
+    marks_nothing nothing;
+    return detail::rasterize_on<Isa>(mesh, light, target, side, sink, where, nothing);
 }
 
 namespace detail {
 /// Casts copies of `caster` at the depths of the triangles.
-template <typename Isa, texel_format Texel>
-light_footprint cast_copies(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light, faces side,
-                            Texel caster) {
+template <typename Isa, texel_format Texel, typename Marks>
+light_footprint cast_copies(image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light, faces side, Texel caster,
+                            Marks& marks) {
     if constexpr (cast_in_lanes<Isa, Texel>) {
         texel_target<Texel> target{texels, caster};
-        return rasterize_rows<Isa, casts<Texel>>(mesh, light, whole(texels.size()), side, touches_everything{}, &target);
+        return rasterize_rows<Isa, casts<Texel>>(mesh, light, whole(texels.size()), side, touches_everything{}, marks, &target);
     } else {
-        const auto cast = [&](int x, int y, float s) {
-            caster.stored[Texel::depth_index] = Texel::caster(s).stored[Texel::depth_index];
-            texels(x, y).cast(caster);
+        const auto cast = [texels, caster](int x, int y, float s) {
+            Texel here = caster;
+            here.stored[Texel::depth_index] = Texel::caster(s).stored[Texel::depth_index];
+            texels(x, y).cast(here);
         };
-        return rasterize(simd<Isa>{}, mesh, light, whole(texels.size()), side, cast);
+        return rasterize_on<Isa>(mesh, light, whole(texels.size()), side, cast, touches_everything{}, marks);
     }
 }
 } // namespace detail
 
 /// cast_triangles of geometry/rasterize.hpp in lanes, bit for bit: cast_triangles(simd<>{}, texels, mesh, light).
-template <typename Isa, texel_format Texel>
+template <typename Isa, texel_format Texel, takes_marks Marks = marks_nothing>
 light_footprint cast_triangles(simd<Isa>, image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
-                               faces side = faces::both) {
-    return detail::cast_copies<Isa>(texels, mesh, light, side, Texel::caster(0.0f));
+                               faces side = faces::both, Marks&& marks = {}) {
+    return detail::cast_copies<Isa>(texels, mesh, light, side, Texel::caster(0.0f), marks);
 }
 
 /// The same for casters that let 1 - `opacity` of the light through.
-template <typename Isa, texel_format Texel>
+template <typename Isa, texel_format Texel, takes_marks Marks = marks_nothing>
     requires(Texel::effects.translucency)
 light_footprint cast_triangles(simd<Isa>, image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
-                               float opacity, faces side = faces::both) {
-    return detail::cast_copies<Isa>(texels, mesh, light, side, Texel::caster(0.0f, opacity));
+                               float opacity, faces side = faces::both, Marks&& marks = {}) {
+    return detail::cast_copies<Isa>(texels, mesh, light, side, Texel::caster(0.0f, opacity), marks);
 }
 
 /// bound_triangles of geometry/rasterize.hpp in lanes, bit for bit.
@@ -177,7 +196,9 @@ light_footprint bound_triangles(simd<Isa> run, image_view<Texel> texels, const t
                                 faces side = faces::both, const Where& where = {}, texel_rect region = everywhere) {
     if constexpr (detail::cast_in_lanes<Isa, Texel>) {
         detail::texel_target<Texel> target{texels, Texel::clear()};
-        return detail::rasterize_rows<Isa, detail::bounds<Texel>>(mesh, light, clip(region, texels.size()), side, where, &target);
+        marks_nothing nothing;
+        return detail::rasterize_rows<Isa, detail::bounds<Texel>>(mesh, light, clip(region, texels.size()), side, where, nothing,
+                                                                  &target);
     } else {
         const auto bound = [&](int x, int y, float z) {
             if (z >= 0.0f) texels(x, y).bound(z);
@@ -188,20 +209,28 @@ light_footprint bound_triangles(simd<Isa> run, image_view<Texel> texels, const t
 
 /// @name The plain loops, for code that is given a backend: cast_triangles(scalar{}, texels, mesh, light).
 /// @{
-template <typename... Given>
-    requires requires(Given&&... given) { rasterize(given...); }
-light_footprint rasterize(scalar, Given&&... given) {
-    return rasterize(given...);
+template <typename Sink, marked_texels Where = touches_everything>
+    requires requires(Sink& sink, int i, float depth) { sink(i, i, depth); }
+light_footprint rasterize(scalar, const triangle_mesh& mesh, const light_frame& light, texel_rect target, faces side, Sink&& sink,
+                          const Where& where = {}) {
+    return rasterize(mesh, light, target, side, sink, where);
 }
-template <typename... Given>
-    requires requires(Given&&... given) { cast_triangles(given...); }
-light_footprint cast_triangles(scalar, Given&&... given) {
-    return cast_triangles(given...);
+template <texel_format Texel, takes_marks Marks = marks_nothing>
+light_footprint cast_triangles(scalar, image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
+                               faces side = faces::both, Marks&& marks = {}) {
+    return cast_triangles(texels, mesh, light, side, marks);
 }
-template <typename... Given>
-    requires requires(Given&&... given) { bound_triangles(given...); }
-light_footprint bound_triangles(scalar, Given&&... given) {
-    return bound_triangles(given...);
+template <texel_format Texel, takes_marks Marks = marks_nothing>
+    requires(Texel::effects.translucency)
+light_footprint cast_triangles(scalar, image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light, float opacity,
+                               faces side = faces::both, Marks&& marks = {}) {
+    return cast_triangles(texels, mesh, light, opacity, side, marks);
+}
+template <texel_format Texel, marked_texels Where = touches_everything>
+    requires(Texel::effects.far_bound)
+light_footprint bound_triangles(scalar, image_view<Texel> texels, const triangle_mesh& mesh, const light_frame& light,
+                                faces side = faces::both, const Where& where = {}, texel_rect region = everywhere) {
+    return bound_triangles(texels, mesh, light, side, where, region);
 }
 /// @}
 

@@ -70,19 +70,19 @@ template <typename Word> struct basic_bit_row {
     /// Calls f(word index, mask) for the words of a span until f answers false; answers whether none did.
     template <typename F> constexpr bool for_each_word(int first, int last, F&& f) const {
         for (int begin = first; begin < last;) {
-            const int w = begin / bits_per_word;
-            const int end = lesser(last, (w + 1) * bits_per_word);
-            if (!f(w, ~bit_word{0} >> (bits_per_word - (end - begin)) << (begin % bits_per_word))) return false;
-            begin = end;
+            const int at = begin % bits_per_word, count = lesser(last - begin, bits_per_word - at);
+            if (!f(begin / bits_per_word, ~bit_word{0} >> (bits_per_word - count) << at)) return false;
+            begin += count;
         }
         return true;
     }
     [[nodiscard]] constexpr int next(int from, bit_word flip) const noexcept {
-        for (int i = from; i < size; i = (i / bits_per_word + 1) * bits_per_word) {
-            const bit_word left = (words[i / bits_per_word] ^ flip) >> (i % bits_per_word);
-            if (left != 0) return i + std::countr_zero(left);
-        }
-        return size;
+        if (from >= size) return size;
+        const int first = from / bits_per_word, count = words_for(size);
+        bit_word left = (words[first] ^ flip) >> (from % bits_per_word) << (from % bits_per_word);
+        int w = first;
+        while (left == 0 && ++w < count) left = words[w] ^ flip;
+        return left == 0 ? size : w * bits_per_word + std::countr_zero(left);
     }
 };
 
