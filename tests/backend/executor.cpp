@@ -235,6 +235,39 @@ TEST_CASE_TEMPLATE("frames that are filtered over the last one by an executor ar
     CHECK(most == 5);
 }
 
+TEST_CASE(
+    "a frame of more regions than are handed out at once is filtered, and its last one cleared, by several calls, an empty one by "
+    "none") {
+    constexpr extent scattered{400, 300};
+    using kernel = gaussian<1>;
+    image<rg8> soft(scattered, rg8::clear());
+    band_scratch<rg8, kernel> scratch(scattered.width, 3);
+    tile_grid before(scattered, 4);
+    int calls = 0;
+    const auto on = [&calls](int count, const auto& job) {
+        ++calls;
+        gnomon::sequential{}(count, job);
+    };
+    for (const int offset : {0, 6, 0, -1}) { // every third tile in every third row of these; at last none
+        image<rg8> casters(scattered, rg8::clear());
+        tile_grid now(scattered, 4);
+        for (int y = 0; offset >= 0 && y + 12 <= scattered.height; y += 12)
+            for (int x = 0; x + 12 <= scattered.width; x += 12) {
+                const texel_rect r{x + offset, y + offset, x + offset + 2, y + offset + 2};
+                casters.view().fill(r, rg8::caster(0.25f));
+                now.mark(r, kernel::radius);
+            }
+        calls = 0;
+        gnomon::refilter(gnomon::simd<>{}, casters.view(), soft.view(), before, now, scratch, on);
+        CHECK(calls >= 2); // 825 regions
+        CHECK(test::differences(soft, test::dense<kernel>(casters)) == 0);
+        before = now;
+    }
+    calls = 0;
+    gnomon::refilter(gnomon::simd<>{}, image<rg8>(scattered, rg8::clear()).view(), soft.view(), before, before, scratch, on);
+    CHECK(calls == 0);
+}
+
 TEST_CASE("after a frame whose map was cut otherwise the next one is filtered whole, unless one of them is empty") {
     dice roll(518);
     using kernel = gaussian<4>;

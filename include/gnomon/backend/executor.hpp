@@ -105,6 +105,23 @@ template <typename Walk> class band_cut {
 };
 template <typename Walk> band_cut(const Walk&, int, std::int64_t = 0) -> band_cut<Walk>;
 
+/// Regions that are handed out together. Jobs look through these for their share, where each would have to walk the whole grid.
+class region_batch {
+  public:
+    void add(texel_rect r) noexcept { regions_[static_cast<std::size_t>(count_++)] = r; }
+    void forget() noexcept { count_ = 0; }
+    [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
+    [[nodiscard]] bool full() const noexcept { return count_ == most; }
+    template <typename F> void operator()(F&& f) const {
+        for (int i = 0; i < count_; ++i) f(regions_[static_cast<std::size_t>(i)]);
+    }
+
+  private:
+    static constexpr int most = 512;
+    texel_rect regions_[static_cast<std::size_t>(most)];
+    int count_ = 0;
+};
+
 } // namespace detail
 
 /// Calls work(y0, y1) for disjoint bands of rows that make up [0, rows), `most` of them, as jobs of an executor: for loops of your own.
@@ -127,7 +144,8 @@ void filter(const Backend& run, std::type_identity_t<image_view<const Texel>> fr
     on(cut.size(), [&](int band) { cut.for_each(band, [&](texel_rect r) { run.filter_region(from, to, r, scratch[band]); }); });
 }
 
-/// The next frame: filters what `now` marks into an image that holds what `before` marked, and clears what that leaves behind.
+/// The next frame: filters what `now` marks into an image that holds what `before` marked, and clears what that leaves behind. The
+/// executor is called once, for each 512 regions of a scattered frame, and not at all for an empty one.
 /// If `now` has another size or tile, all of the map is filtered, unless one of the two marks nothing.
 template <kernel Kernel, texel_format Texel, backend_for<Texel, Kernel> Backend, typename On>
 void refilter(const Backend& run, std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, const tile_grid& before,
@@ -137,15 +155,26 @@ void refilter(const Backend& run, std::type_identity_t<image_view<const Texel>> 
                   "gnomon: the tile grid and both images must have the same size: make all three from one extent");
     const bool comparable = same_tiles(before, now) || before.empty() || now.empty();
     const regions_to_filter<Kernel> needed(now, !comparable, detail::sums_run<Backend, Kernel, Texel>);
-    const auto left = [&](auto&& f) {
-        if (!needed.all()) for_each_region_left(before, now, Kernel::radius, f);
+    detail::region_batch to_clear, to_filter;
+    const auto hand_out = [&] {
+        const detail::band_cut cleared(to_clear, scratch.size());
+        const detail::band_cut filtered(to_filter, scratch.size(), detail::least_band<Backend, Kernel, Texel>(to.width()));
+        on(greater(cleared.size(), filtered.size()), [&](int band) {
+            cleared.for_each(band, [&](texel_rect r) { clear_region(to, r); });
+            filtered.for_each(band, [&](texel_rect r) { run.filter_region(from, to, r, scratch[band]); });
+        });
+        to_clear.forget();
+        to_filter.forget();
     };
-    const detail::band_cut cleared(left, scratch.size());
-    const detail::band_cut filtered(needed, scratch.size(), detail::least_band<Backend, Kernel, Texel>(to.width()));
-    on(greater(cleared.size(), filtered.size()), [&](int band) {
-        cleared.for_each(band, [&](texel_rect r) { clear_region(to, r); });
-        filtered.for_each(band, [&](texel_rect r) { run.filter_region(from, to, r, scratch[band]); });
-    });
+    const auto into = [&hand_out](detail::region_batch& batch) {
+        return [&](texel_rect r) {
+            batch.add(r);
+            if (batch.full()) hand_out();
+        };
+    };
+    if (!needed.all()) for_each_region_left(before, now, Kernel::radius, into(to_clear));
+    needed(into(to_filter));
+    if (!to_clear.empty() || !to_filter.empty()) hand_out();
 }
 
 /// Filters what the grid marks as jobs of an executor: the bits of the same call without one.

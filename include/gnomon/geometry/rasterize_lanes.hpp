@@ -115,7 +115,7 @@ light_footprint rasterize_rows(const triangle_mesh& mesh, const light_frame& lig
                    .cut = draw_cut,
                    .run = nullptr};
     if constexpr (!std::same_as<Where, touches_everything>)
-        job.touches = [](const void* marks, texel_rect r) { return touches(*static_cast<const Where*>(marks), r); };
+        job.touches = [](const void* place, texel_rect r) { return touches(*static_cast<const Where*>(place), r); };
     const auto draw = for_lanes<Isa>([&job]<typename Lanes>() {
         using triangles = typename raster_on<Lanes>::triangles;
         using row_kind = typename Kind::template row<Lanes>;
