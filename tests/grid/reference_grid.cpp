@@ -25,7 +25,10 @@ using test::dice;
 
 std::vector<tile_rect> rects_of(const reference_grid& grid) {
     std::vector<tile_rect> found;
-    grid.for_each_tile_rect([&](tile_rect r) { found.push_back(r); });
+    grid.for_each_tile_rect([&](tile_rect r) {
+        found.push_back(r);
+        return found.size(); // which nobody asks for
+    });
     return found;
 }
 

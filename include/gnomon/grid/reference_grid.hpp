@@ -63,7 +63,10 @@ class reference_grid {
     /// Calls f(tile_rect) in the engine's order of emission. A union box without area makes it blur the whole map.
     template <typename F> void for_each_tile_rect(F&& f) const {
         if (!any_) return;
-        if (!(box_.x0 < box_.x1 && box_.y0 < box_.y1)) return f(tile_rect{0, 0, side, side});
+        if (!(box_.x0 < box_.x1 && box_.y0 < box_.y1)) {
+            f(tile_rect{0, 0, side, side});
+            return;
+        }
         std::array<bit_word, side> scratch{};
         for_each_tile_rect_greedy(tiles_, scratch, f);
     }
