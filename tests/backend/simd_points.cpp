@@ -224,7 +224,7 @@ TEST_CASE("receivers anywhere on maps of more texels a side than lanes count are
 }
 
 TEST_CASE(
-    "lanes blend on maps of 2 to 2^21 texels a side whose offsets fit 32 bits; bytes for rules of one rounding, words of 128") {
+    "lanes blend on maps of 2 to 2^21 texels a side whose offsets fit 32 bits, bytes for rules of one rounding and words of 128") {
     const std::tuple<rg8, rg16> memory; // that of offsets beyond 32 bits is not to be had, and none is read
     const auto serves_on = [&memory]<typename Texel>(Texel, extent size, std::ptrdiff_t stride, int roundings) {
         return gnomon::on_any::blended_decision<gnomon::emulated<16>, Texel, float, float>::serves(
