@@ -76,9 +76,11 @@ def receives(path):
         for peer, called in (("copy", "of_copy"), ("scalar", "vs_scalar")):
             if theirs := time.get(f"{peer}/{of}/{size}"):
                 ratios[f"receive.{of}.{called}_{WHERE[size]}{suffix}"] = theirs / of_lanes
-        if theirs := min((time[peer] for form in ("copied", "multiplied") if (peer := f"opencv.{form}/{of}/{size}") in time), default=None):
+        forms = {form: time[peer] for form in ("copied", "multiplied") if (peer := f"opencv.{form}/{of}/{size}") in time}
+        for peer, theirs in forms.items() | {("opencv", min(forms.values()))} if forms else ():
             where = "" if WHERE[size] == "l2" else "_" + WHERE[size]
-            ratios[f"receive.{of.removesuffix('.f32')}.vs_opencv{where}{suffix}"] = theirs / of_lanes
+            called = "vs_opencv" if peer == "opencv" else f"vs_opencv_{peer}"
+            ratios[f"receive.{of.removesuffix('.f32')}.{called}{where}{suffix}"] = theirs / of_lanes
     return ratios
 
 

@@ -49,6 +49,8 @@ EXPECTED = {
     "filter.box.f32x2.r32.over_r8": 1.25, "filter.box.f32x2.r32.vs_opencv": 3,
     "receive.u8x2.z16.of_copy_l2": 0.75, "receive.u8x2.z16.of_copy_l2.avx2": 0.6, "receive.u8x2.z16.vs_scalar_l2": 10,
     "receive.u8x2.z16.vs_scalar_l2.avx2": 8, "receive.u8x2.z16.of_copy_dram": 0.9, "receive.f32x2.vs_opencv": 12,
+    "receive.f32x2.vs_opencv_copied": 12, "receive.f32x2.vs_opencv_multiplied": 15, "receive.f32x2.vs_opencv_copied_l3": 5.6,
+    "receive.f32x2.vs_opencv_multiplied_l3": 4,
     "receive.f32x2.vs_opencv_l3": 4, "receive.bilinear.u8x2.of_gather": 0.7, "receive.bilinear.u8x2.of_gather_l2.avx2": 0.6,
     "sparse.u8x2.10pct.over_ideal": 1.2, "sparse.u8x2.50pct.over_ideal": 1.5, "sparse.u8x2.85pct.of_dense": 0.98, "sparse.empty.of_dense": 0.005,
     "grid.merge32.ns": 300, "pipeline.u8x2.blur_receive.over_sum_of_floors": 2.5,
