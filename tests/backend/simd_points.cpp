@@ -263,8 +263,8 @@ TEST_CASE_TEMPLATE("lanes say that they decided, and leave nothing to be decided
 TEST_CASE("a blend of words is decided by floats but within a 16th of a code of nothing") {
     using lanes = gnomon::emulated<16>;
     using words = gnomon::on_any::word_blend<lanes, rg16>;
-    const auto tells = []<typename Depth>(Depth, float mask,
-                                          double beyond) { // by m (z - s), in codes, for a caster at 1/2 of the depth
+    // Of m (z - s) = beyond, in codes, for a receiver at half of the depth.
+    const auto tells = []<typename Depth>(Depth, float mask, double beyond) {
         const auto by = gnomon::on_any::blend_rule<lanes>::of<rg16, Depth>({.caster = {.towards = gnomon::bias_towards::none}});
         const auto code = [](double number) { return lanes::repeat32(static_cast<std::uint32_t>(number * 65536.0)); };
         const double m = static_cast<double>(mask);

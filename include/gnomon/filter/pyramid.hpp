@@ -70,7 +70,8 @@ template <texel_format Texel> class pyramid {
     ///
     /// Reads its marked tiles alone, and those of the last build: the same bits as from the whole map, if the map is clear where
     /// nothing is marked. \pre the map and its grid have the size and the tiles of the constructor; from others nothing is built.
-    /// Cost: 4 reads a texel, for a third of the area that is marked and of that which was; and a texel a level for each region of the grid.
+    /// Cost: 4 reads a texel, for a third of the area that is marked and of that which was; and a texel a level for each region of the
+    /// grid.
     void build(image_view<const Texel> map, const tile_grid& tiles) noexcept {
         if (levels_.empty()) return; // nothing, or one texel
         const bool fits = map.size() == size() && same_tiles(tiles, built_);

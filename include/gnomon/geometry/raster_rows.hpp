@@ -149,7 +149,8 @@ template <typename Isa> struct rasterizer {
             detail::touched_texels here;
             draw_one<Row>(b, j, k, first, here);
             if (here.box.empty()) continue;
-            j.mark(j.marks, here.footprint().texels, here.footprint().depth);
+            const light_footprint covered = here.footprint();
+            j.mark(j.marks, covered.texels, covered.depth);
             touched.add(here);
         }
     }

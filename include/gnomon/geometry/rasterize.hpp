@@ -274,7 +274,8 @@ light_footprint rasterize_and_mark(const triangle_mesh& mesh, const light_frame&
         };
         draw_triangle(mesh, first, to_map, handedness, light, target, side, where, run);
         if (here.box.empty()) continue;
-        marks(here.footprint().texels, here.footprint().depth);
+        const light_footprint covered = here.footprint();
+        marks(covered.texels, covered.depth);
         touched.add(here);
     }
     return touched.footprint();
