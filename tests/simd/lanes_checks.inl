@@ -189,6 +189,7 @@ template <typename Isa> int wrong_floats(const float* number) {
            !equal(Isa::add_product(a, b, c), same::add_product(e, f, g)) +
            !equal(Isa::keep(Isa::greater(a, b), one), same::keep(same::greater(e, f), unit)) +
            !equal(Isa::keep(Isa::not_greater(a, b), one), same::keep(same::not_greater(e, f), unit)) +
+           !equal(Isa::drop(Isa::greater(a, b), one), same::drop(same::greater(e, f), unit)) +
            !equal(Isa::keep(Isa::both(Isa::greater(a, b), Isa::greater(a, c)), one),
                   same::keep(same::both(same::greater(e, f), same::greater(e, g)), unit)) +
            !equal(Isa::keep(Isa::positive(a, b, c), one), same::keep(same::positive(e, f, g), unit)) +

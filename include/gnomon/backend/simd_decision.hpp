@@ -80,8 +80,9 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                                      masks& shadowed) noexcept {
         const floats depth = Isa::load(depths), zero = Isa::repeat(0.0f), half = Isa::repeat(0.5f);
         const floats z = Isa::subtract(depth, by.nearer);
-        const floats beyond = Isa::subtract(z, Isa::keep(Isa::not_greater(half, z), Isa::repeat(1.0f)));
-        const floats rest = Isa::subtract(e, Isa::keep(Isa::greater(half, z), m));
+        const masks near = Isa::greater(half, z);
+        const floats beyond = Isa::subtract(z, Isa::drop(near, Isa::repeat(1.0f)));
+        const floats rest = Isa::subtract(e, Isa::keep(near, m));
         shadowed = Isa::both(Isa::positive(m, beyond, rest), Isa::both(there, Isa::greater(depth, zero)));
         if (by.by_rule->lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
         return !Isa::any(Isa::both(there, Isa::not_greater(m, by.least_mask))) &&

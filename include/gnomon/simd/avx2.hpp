@@ -151,6 +151,7 @@ struct avx2 {
     }
     GNOMON_LANES masks both(masks a, masks b) noexcept { return _mm256_and_ps(a, b); }
     GNOMON_LANES floats keep(masks where, floats a) noexcept { return _mm256_and_ps(where, a); }
+    GNOMON_LANES floats drop(masks where, floats a) noexcept { return _mm256_andnot_ps(where, a); }
     template <channel Channel, int Channels> GNOMON_LANES floats codes_of(const typename Channel::storage* from, int c) noexcept {
         if constexpr (std::same_as<Channel, unorm8> && Channels == 2) {
             const ints pairs = _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
@@ -165,10 +166,12 @@ struct avx2 {
         } else if constexpr (std::same_as<Channel, unorm16> && Channels == 1) {
             return numbers(widen32(from));
         } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
-            return channel_of_pairs(load(from), load(from + 8), c);
+            return channel_of_pairs(two_quarters(from, from + 8), two_quarters(from + 4, from + 12), c);
         } else if constexpr (std::same_as<Channel, half16> && Channels == 2) {
             const auto* const pairs = reinterpret_cast<const __m128i*>(from);
-            return channel_of_pairs(_mm256_cvtph_ps(_mm_loadu_si128(pairs)), _mm256_cvtph_ps(_mm_loadu_si128(pairs + 1)), c);
+            const __m128i first = _mm_loadu_si128(pairs), second = _mm_loadu_si128(pairs + 1);
+            return channel_of_pairs(_mm256_cvtph_ps(_mm_unpacklo_epi64(first, second)),
+                                    _mm256_cvtph_ps(_mm_unpackhi_epi64(first, second)), c);
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
@@ -277,9 +280,12 @@ struct avx2 {
         return _mm256_shuffle_epi8(
             a, _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 4, 5, 8, 9, 12, 13, 2, 3, 6, 7, 10, 11, 14, 15)));
     }
+    GNOMON_LANES floats two_quarters(const float* low, const float* high) noexcept {
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1);
+    }
+    /// Of the pairs 0, 1, 4, 5, and 2, 3, 6, 7.
     GNOMON_LANES floats channel_of_pairs(floats a, floats b, int c) noexcept {
-        const floats taken = c == 0 ? _mm256_shuffle_ps(a, b, 0x88) : _mm256_shuffle_ps(a, b, 0xDD);
-        return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(taken), 0xD8));
+        return c == 0 ? _mm256_shuffle_ps(a, b, 0x88) : _mm256_shuffle_ps(a, b, 0xDD);
     }
     /// Cut to the 24 bits of a float, the last one set if anything was lost: rounding that to a half rounds once.
     GNOMON_LANES doubles to_odd(doubles a) noexcept {

@@ -151,6 +151,7 @@ struct avx512 {
     }
     GNOMON_LANES masks both(masks a, masks b) noexcept { return static_cast<masks>(a & b); }
     GNOMON_LANES floats keep(masks where, floats a) noexcept { return _mm512_maskz_mov_ps(where, a); }
+    GNOMON_LANES floats drop(masks where, floats a) noexcept { return _mm512_maskz_mov_ps(_knot_mask16(where), a); }
     template <channel Channel, int Channels> GNOMON_LANES floats codes_of(const typename Channel::storage* from, int c) noexcept {
         if constexpr (std::same_as<Channel, unorm8> && Channels == 2) {
             const ints pairs = _mm512_maskz_cvtepu16_epi32(all, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));

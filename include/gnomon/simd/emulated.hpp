@@ -275,6 +275,10 @@ template <int Bytes> struct emulated {
     [[nodiscard]] static floats keep(masks where, floats a) noexcept {
         return of_floats<floats>([&](int i) { return where.lane[i] ? a.lane[i] : 0.0f; });
     }
+    /// 0 where the mask is set, else `a`.
+    [[nodiscard]] static floats drop(masks where, floats a) noexcept {
+        return of_floats<floats>([&](int i) { return where.lane[i] ? 0.0f : a.lane[i]; });
+    }
     /// The codes of channel `c` of `float_lanes` texels that lie side by side, `Channels` each.
     template <channel Channel, int Channels>
     [[nodiscard]] static floats codes_of(const typename Channel::storage* from, int c) noexcept {

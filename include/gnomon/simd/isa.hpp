@@ -95,6 +95,7 @@ concept simd_isa =
         { Isa::positive(f, f, f) } -> std::same_as<typename Isa::masks>;
         { Isa::both(m, m) } -> std::same_as<typename Isa::masks>;
         { Isa::keep(m, f) } -> std::same_as<typename Isa::floats>;
+        { Isa::drop(m, f) } -> std::same_as<typename Isa::floats>;
         { Isa::template codes_of<unorm8, 2>(codes, 0) } -> std::same_as<typename Isa::floats>;
         { Isa::numbers(i) } -> std::same_as<typename Isa::floats>;
         { Isa::any(m) } -> std::same_as<bool>;

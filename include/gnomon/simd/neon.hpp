@@ -151,6 +151,9 @@ struct neon {
     GNOMON_LANES floats keep(masks where, floats a) noexcept {
         return vreinterpretq_f32_u32(vandq_u32(where, vreinterpretq_u32_f32(a)));
     }
+    GNOMON_LANES floats drop(masks where, floats a) noexcept {
+        return vreinterpretq_f32_u32(vbicq_u32(vreinterpretq_u32_f32(a), where));
+    }
     template <channel Channel, int Channels> GNOMON_LANES floats codes_of(const typename Channel::storage* from, int c) noexcept {
         if constexpr (std::same_as<Channel, unorm8> && Channels == 2) {
             const uint16x4_t pairs = vreinterpret_u16_u8(vld1_u8(from));

@@ -162,6 +162,7 @@ struct sse2 {
     }
     GNOMON_LANES masks both(masks a, masks b) noexcept { return _mm_and_ps(a, b); }
     GNOMON_LANES floats keep(masks where, floats a) noexcept { return _mm_and_ps(where, a); }
+    GNOMON_LANES floats drop(masks where, floats a) noexcept { return _mm_andnot_ps(where, a); }
     template <channel Channel, int Channels> GNOMON_LANES floats codes_of(const typename Channel::storage* from, int c) noexcept {
         if constexpr (std::same_as<Channel, unorm8> && Channels == 2) {
             const ints pairs = _mm_unpacklo_epi16(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)), _mm_setzero_si128());

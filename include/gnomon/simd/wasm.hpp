@@ -143,6 +143,7 @@ struct wasm128 {
     }
     GNOMON_LANES masks both(masks a, masks b) noexcept { return a & b; }
     GNOMON_LANES floats keep(masks where, floats a) noexcept { return floats_of(bits_of(where) & bits_of(a)); }
+    GNOMON_LANES floats drop(masks where, floats a) noexcept { return floats_of(wasm_v128_andnot(bits_of(a), bits_of(where))); }
     template <channel Channel, int Channels> GNOMON_LANES floats codes_of(const typename Channel::storage* from, int c) noexcept {
         if constexpr (std::same_as<Channel, unorm8> && Channels == 2) {
             const ints pairs = wasm_u32x4_extend_low_u16x8(wasm_v128_load64_zero(from));
