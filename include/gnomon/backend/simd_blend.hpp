@@ -41,9 +41,7 @@ GNOMON_INLINE bool decided_by_codes(const blend_rule<Isa>& by, typename Isa::flo
     const auto depth = Isa::add(Isa::template codes_of<unorm16, 1>(depths, 0), by.z);
     const auto sum = Isa::add_product(Isa::multiply(rest, last), m, depth);
     const auto there = Isa::both(Isa::greater(mask, Isa::repeat(0.0f)), Isa::greater(depth, by.before));
-    shadowed = Isa::both(there, Isa::not_greater(Isa::repeat(-doubt), sum));
-    return !Isa::any(Isa::both(shadowed, Isa::not_greater(sum, Isa::repeat(doubt)))) &&
-           !Isa::any(Isa::both(there, Isa::greater(depth, last)));
+    return surely_positive<Isa>(sum, Isa::repeat(doubt), there, shadowed) && !Isa::any(Isa::both(there, Isa::greater(depth, last)));
 }
 
 /// Pairs of bytes. Both texels of a row come in one load of 32 bits; a blend is below 2^24 and so exact in float, as is all that is
@@ -179,8 +177,7 @@ template <typename Isa, texel_format Texel> struct word_blend {
         const floats sum = Isa::add_product(of.rest, of.m, Isa::add(depth, by.z));
         const masks there = Isa::both(Isa::greater(mask_of(blended), zero), Isa::greater(depth, zero));
         const masks asked = by.lit_beyond ? Isa::both(there, Isa::not_greater(depth, Isa::repeat(1.0f))) : there;
-        shadowed = Isa::both(asked, Isa::not_greater(Isa::repeat(-doubt), sum));
-        return !Isa::any(Isa::both(shadowed, Isa::not_greater(sum, Isa::repeat(doubt))));
+        return surely_positive<Isa>(sum, Isa::repeat(doubt), asked, shadowed);
     }
     GNOMON_LANES bool decided(const blend_rule<Isa>& by, const pair& blended, const std::uint16_t* depths,
                               masks& shadowed) noexcept {

@@ -15,6 +15,14 @@ namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 template <texel_format Texel>
 inline constexpr bool decidable_pairs = !Texel::effects.far_bound && std::same_as<typename Texel::representation_type, depth_mask>;
 
+/// Whose sums are above nothing, of those `asked`. False if one of these lies within `doubt` of it.
+template <typename Isa>
+GNOMON_INLINE bool surely_positive(const typename Isa::floats& sum, const typename Isa::floats& doubt,
+                                   const typename Isa::masks& asked, typename Isa::masks& positive) noexcept {
+    positive = Isa::both(asked, Isa::not_greater(Isa::subtract(Isa::repeat(0.0f), doubt), sum));
+    return !Isa::any(Isa::both(positive, Isa::not_greater(sum, doubt)));
+}
+
 /// One register of receivers at a time. A receiver is shadowed iff e > m (1-z), see receive/decide.hpp: of a biased pair and depth, the
 /// sign of a product and a sum, exact wherever one of the functions below says that it is. What is left goes by the scalar loop:
 ///
@@ -94,11 +102,9 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                                    const std::uint16_t* depths, masks& shadowed) noexcept {
         const floats last = Isa::repeat(static_cast<float>(depth16::last));
         const floats z = Isa::subtract(Isa::template codes_of<unorm16, 1>(depths, 0), by.nearer);
-        const floats sum = Isa::add_product(Isa::multiply(Isa::subtract(e, m), last), m, z),
-                     doubt = Isa::multiply(m, Isa::repeat(0.0625f));
+        const floats sum = Isa::add_product(Isa::multiply(Isa::subtract(e, m), last), m, z);
         const masks asked = Isa::both(there, Isa::greater(z, by.before));
-        shadowed = Isa::both(asked, Isa::not_greater(Isa::subtract(Isa::repeat(0.0f), doubt), sum));
-        return !Isa::any(Isa::both(shadowed, Isa::not_greater(sum, doubt))) &&
+        return surely_positive<Isa>(sum, Isa::multiply(m, Isa::repeat(0.0625f)), asked, shadowed) &&
                !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) &&
                !Isa::any(Isa::both(asked, Isa::greater(z, last)));
     }
