@@ -103,8 +103,9 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         const floats last = Isa::repeat(static_cast<float>(depth16::last));
         const floats z = Isa::subtract(Isa::template codes_of<unorm16, 1>(depths, 0), by.nearer);
         const floats sum = Isa::add_product(Isa::multiply(Isa::subtract(e, m), last), m, z);
+        const floats doubt = Isa::multiply(m, Isa::repeat(0.0625f));
         const masks asked = Isa::both(there, Isa::greater(z, by.before));
-        return surely_positive<Isa>(sum, Isa::multiply(m, Isa::repeat(0.0625f)), asked, shadowed) &&
+        return surely_positive<Isa>(sum, doubt, asked, shadowed) &&
                !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) &&
                !Isa::any(Isa::both(asked, Isa::greater(z, last)));
     }

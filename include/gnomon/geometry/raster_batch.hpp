@@ -2,7 +2,7 @@
 // includes it once for each target, inside its region, so there is no #pragma once: GNOMON_ON names the namespace it goes to; without
 // it there is nothing.
 //
-// Every formula is that of geometry/rasterize.hpp and GLM, in their order, each product rounded by itself: `times` keeps compilers from
+// Every formula is that of geometry/triangle.hpp and GLM, in their order, each product rounded by itself: `times` keeps compilers from
 // fusing it with a sum. Products without it are exact. No other number is computed in a region, where a compiler would fuse it.
 
 #include <gnomon/geometry/raster_job.hpp>
