@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -547,7 +548,7 @@ TEST_CASE_TEMPLATE("without asserts, lanes that the processor has not are left t
 #endif
 #endif
 
-TEST_CASE("lanes count in what is quickest and still exact, words or doubles, and in floats where a kernel says fast") {
+TEST_CASE("lanes count in what is quickest and still exact, words, floats or doubles, and in floats where a kernel says fast") {
     using gnomon::fast;
     using gnomon::on_any::pair_filter;
     using gnomon::on_any::word_filter;
@@ -562,14 +563,53 @@ TEST_CASE("lanes count in what is quickest and still exact, words or doubles, an
     CHECK(goes_by.operator()<word_filter, gnomon::rgba8, fast<gaussian<2>>>());
     CHECK(goes_by.operator()<word_filter, gnomon::rgb16, fast<gaussian<2>>>());
     CHECK(goes_by.operator()<pair_filter, gnomon::rg16, fast<binomial<1>>>());
-    CHECK(goes_by.operator()<doubles, rg8, tent<2>>());     // 1/81
-    CHECK(goes_by.operator()<doubles, rg8, gaussian<2>>()); // sixteen bits
-    CHECK(goes_by.operator()<doubles, rg8, box<0>>());      // 256 is no byte
-    CHECK(goes_by.operator()<doubles, rg8, fast<gaussian<33>>>());
+    CHECK(goes_by.operator()<floats, rg8, tent<2>>());     // 1/81
+    CHECK(goes_by.operator()<floats, rg8, gaussian<2>>()); // sixteen bits
+    CHECK(goes_by.operator()<floats, rg8, box<0>>());      // 256 is no byte
+    CHECK(goes_by.operator()<floats, gnomon::rgba8, fast<gaussian<33>>>());
+    CHECK(goes_by.operator()<doubles, gnomon::tm8, gaussian<2>>()); // of products of two bytes
     CHECK(goes_by.operator()<doubles, gnomon::rg16, binomial<1>>());
     CHECK(goes_by.operator()<doubles, gnomon::rg32f, gaussian<2>>());
     CHECK(goes_by.operator()<floats, gnomon::rg32f, fast<gaussian<2>>>());
     CHECK(goes_by.operator()<floats, gnomon::rgb16f, fast<box<1>>>());
+}
+
+TEST_CASE_TEMPLATE("a sum of bytes at the middle of two codes, or one unit beside it, is rounded as whole numbers are", Kernel,
+                   gaussian<2>, gaussian<4>, gaussian<32>, tent<20>) {
+    using pass = floats<emulated<16>, Kernel, rg8>;
+    constexpr std::int64_t total = Kernel::total, whole = total * total;
+    constexpr std::int64_t centre = Kernel::weights[Kernel::radius];
+    constexpr int away = [] { // a weight with which the centre's makes any sum
+        int distance = 1;
+        while (std::gcd(centre, std::int64_t{Kernel::weights[static_cast<std::size_t>(Kernel::radius + distance)]}) != 1)
+            ++distance;
+        return distance;
+    }();
+    constexpr std::int64_t other = Kernel::weights[static_cast<std::size_t>(Kernel::radius + away)];
+    int wrong = 0, left_open = 0, told = 0;
+    for (std::int64_t code = 2; code < 254; ++code)
+        for (int beside = -2; beside <= 2; ++beside)
+            for (int lane = 0; lane < pass::step; ++lane) {
+                const std::int64_t sum = code * whole + whole / 2 + beside, all = sum / total;
+                std::int64_t more = 0; // at the centre, so that what lacks is a multiple of the other weight
+                while ((sum - all * total - more * centre) % other != 0) ++more;
+                std::vector<float> line(static_cast<std::size_t>(2 * pass::taps + pass::step), 0.0f);
+                const auto tap = [&](int t) -> float& { return line[static_cast<std::size_t>(lane + 2 * t)]; };
+                for (int t = 0; t < pass::taps; ++t) tap(t) = static_cast<float>(all);
+                tap(Kernel::radius) = static_cast<float>(all + more);
+                tap(Kernel::radius + away) = static_cast<float>(all + (sum - all * total - more * centre) / other);
+                std::array<std::uint8_t, std::size_t{pass::step}> made{}, nearest{};
+                pass::row(line.data(), 0, made.data());
+                wrong += made[static_cast<std::size_t>(lane)] != (2 * sum + whole) / (2 * whole);
+                const auto is_told = [&](std::int64_t n) {
+                    return pass::told(emulated<16>::repeat(static_cast<float>(n)), nearest.data());
+                };
+                left_open += !is_told(sum);
+                told += is_told(sum + whole / 4 * 3) && nearest[0] == code + 1;
+            }
+    CHECK(wrong == 0);
+    CHECK(left_open == 252 * 5 * pass::step);
+    CHECK(told == left_open);
 }
 
 TEST_CASE("what lanes sum of a row has whole cache lines, and its margin before it") {

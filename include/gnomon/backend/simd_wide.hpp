@@ -6,6 +6,7 @@
 
 #include <array>
 #include <bit>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -27,13 +28,16 @@ template <typename Isa, typename Storage> GNOMON_INLINE void call_for(const Stor
     for (int j = 0; j < rows_at_once; ++j) Isa::prefetch(ahead[j] + i);
 }
 
-/// Any texel that is filtered channel by channel, in doubles, whose sums are exact, or in floats. (See filter/separable.hpp.)
+/// Any texel that is filtered channel by channel: in doubles, whose sums are exact; or in floats, if that is what `fast` asks for (see
+/// filter/separable.hpp), or if codes are bytes. Of these a line is exact in float too, below 255 * 65536, and a row is all but exact:
+/// what is too near the middle of two codes is summed again.
 template <typename Isa, kernel Kernel, texel_format Texel, typename Number> struct wide_filter {
     using by = detail::sums<Texel, Kernel>;
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
     using element = Number;
     using numbers = decltype(Isa::repeat(Number{}));
+    static constexpr bool nearly = std::same_as<Number, float> && channel_type::whole_codes; ///< are sums of rows so?
 
     static constexpr int step = Isa::bytes / static_cast<int>(sizeof(Number)); ///< channels that are made at a time
     static constexpr int planes = 1;                                           ///< that a line consists of
@@ -63,7 +67,9 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
             return Isa::add_product(Isa::add_product(sum, w, a), w, b);
     }
     GNOMON_LANES numbers codes(const storage* from) noexcept {
-        if constexpr (by::in_floats)
+        if constexpr (nearly)
+            return Isa::numbers(Isa::widen32(from));
+        else if constexpr (by::in_floats)
             return Isa::template codes_of<channel_type, 1>(from, 0);
         else if constexpr (Texel::representation_type::premultiplied)
             return Isa::template codes<channel_type>(from);
@@ -107,6 +113,26 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
                    Isa::template straddle<away>(here, behind));
     }
 
+    /// A register of codes to nearest, if none is in doubt. A sum of positive numbers is rounded R+4 times on its way to a code, each time
+    /// by 2^-24 of itself; so no code is off by (R+5) 2^-16.
+    GNOMON_LANES bool told(numbers sum, storage* to) noexcept {
+        constexpr float sure = 0.5f - static_cast<float>(Kernel::radius + 5) * 0x1p-16f;
+        const numbers units = Isa::repeat(0x1.8p23f); // times which a float is a whole number
+        const numbers code = Isa::multiply(sum, Isa::repeat(static_cast<float>(1.0 / static_cast<double>(by::whole))));
+        const numbers nearest = Isa::subtract(Isa::add(code, units), units), rest = Isa::subtract(code, nearest);
+        if (Isa::any(Isa::greater(Isa::multiply(rest, rest), Isa::repeat(sure * sure)))) return false;
+        Isa::template store_codes<channel_type>(to, nearest);
+        return true;
+    }
+    static void again(const Number* line, storage* to) noexcept {
+        for (int k = 0; k < step; ++k) {
+            std::uint64_t sum = 0;
+            for (int t = 0; t < taps; ++t)
+                sum += by::template weight<std::uint64_t>(t) * static_cast<std::uint64_t>(line[k + t * Texel::channels]);
+            to[k] = static_cast<storage>((sum + by::whole / 2) / by::whole);
+        }
+    }
+
     GNOMON_LANES_VOID void row(const Number* line, int, storage* to) noexcept {
         constexpr auto whole = static_cast<Number>(by::whole);
         const Number* const centre = line + margin;
@@ -121,7 +147,10 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         GNOMON_UNROLL(16)
         for (int d = held + 1; d <= Kernel::radius; ++d)
             sum = add(sum, weight(d), Isa::load(centre - d * Texel::channels), Isa::load(centre + d * Texel::channels));
-        if constexpr (!Texel::representation_type::premultiplied) {
+        if constexpr (nearly) {
+            if (!told(sum, to)) again(line, to);
+            return;
+        } else if constexpr (!Texel::representation_type::premultiplied) {
             double sums[static_cast<std::size_t>(step)];
             Isa::store(sums, sum);
             for (int k = 0; k < step; k += Texel::channels) {
@@ -138,7 +167,7 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         } else if constexpr (!by::in_floats || !std::has_single_bit(static_cast<unsigned>(by::weights_of::total))) {
             sum = Isa::divide(sum, Isa::repeat(whole));
         }
-        if constexpr (Texel::representation_type::premultiplied) Isa::template store_codes<channel_type>(to, sum);
+        if constexpr (!nearly && Texel::representation_type::premultiplied) Isa::template store_codes<channel_type>(to, sum);
     }
 };
 
