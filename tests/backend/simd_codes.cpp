@@ -308,6 +308,23 @@ TEST_CASE_TEMPLATE("a mask that a bias takes away is nothing to lanes too, whate
     for (const rule& r : rules()) check_lanes<float>(texels, z, r);
 }
 
+TEST_CASE("pairs of floats beyond every map are decided as the oracle does, where products with a depth in codes overflow") {
+    const auto check_alone = [](float e, float m, int code) { // lest another receiver's doubt speaks for this one
+        const std::vector<gnomon::rg32f> texels(64, {{e, m}});
+        const std::vector<std::uint16_t> z(64, nearest_code(code));
+        for (const rule& r : rules()) check_lanes<float>(texels, z, r);
+    };
+    check_alone(0.5f, 1e36f, 47284);
+    check_alone(4.8436753e33f, 1.00360511e34f, 33906);
+    dice roll(441);
+    for (int exponent = 60; exponent < 128; ++exponent)
+        for (int i = 0; i < 20; ++i) {
+            const float m = std::ldexp(0.5f + 0.5f * roll.unit(), exponent), e = m * (roll.one_in(9) ? -1.0f : 1.0f) * roll.unit();
+            const double begins = 65535.0 * (1.0 - static_cast<double>(e) / static_cast<double>(m));
+            check_alone(e, m, static_cast<int>(std::min(begins, 65535.0)) + roll(-1, 2));
+        }
+}
+
 TEST_CASE("every mask is stored as the oracle stores it, as 8 bits, as 16 and as a float") {
     std::vector<rg16> words(65536);
     std::vector<rg8> bytes(65536);

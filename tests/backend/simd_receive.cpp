@@ -216,7 +216,12 @@ TEST_CASE_TEMPLATE("lanes tell of what is ordinary, and leave it to no loop of t
     for (const auto towards : {gnomon::bias_towards::light, gnomon::bias_towards::shadow, gnomon::bias_towards::none}) {
         const gnomon::rule r{.caster = {.towards = towards}};
         CHECK(told_by_lanes<Texel, float>(r));
-        if constexpr (Texel::channel_type::whole_codes) CHECK(told_by_lanes<Texel, std::uint16_t>(r));
+        CHECK(told_by_lanes<Texel, std::uint16_t>(r));
+        const std::vector<Texel> casters(64, Texel::caster(0.5f));
+        const std::vector<std::uint16_t> behind_all(64, 65535);
+        std::vector<float> made(64);
+        using by = gnomon::on_any::decision<gnomon::emulated<32>, Texel, std::uint16_t, float>;
+        CHECK(by::one(by::of(r), casters[0].stored, behind_all.data(), made.data())); // moved beyond the range by some
     }
 }
 

@@ -75,6 +75,10 @@ template <typename Texel, bool Twice = true> void try_mask(int mask_code, sweep&
 // At compile time: the paper's step 4 for a half covered texel with its caster at 1/2.
 static_assert(test::same_bits(shadow(rg8{{64, 128}}, 0.5f, {.caster = unbiased}), 0.0f));
 static_assert(test::same_bits(shadow(rg8{{64, 128}}, 0x1.000002p-1f, {.caster = unbiased}), 128.0f / 255.0f));
+// nor by a depth without end, where no side is favoured
+static_assert(test::same_bits(shadow(rg8{{64, 128}}, 0x1.000002p-1f,
+                                     {.caster = {.towards = gnomon::bias_towards::none, .depth = test::infinity<float>}}),
+                              128.0f / 255.0f));
 static_assert(test::same_bits(shadow(rg16f::clear(), 1.0f), 0.0f) && shadow(rg32f::caster(0.25f), 0.75f) > 0.99f);
 
 } // namespace

@@ -51,8 +51,11 @@ TEST_CASE("no shadow leaves the light and full shadow the ambient unless the lig
     CHECK(wrong.report() == "");
 }
 
-TEST_CASE("a NaN light or ambient gives the light itself") {
+TEST_CASE("a NaN light or ambient, or one without end, gives the light itself") {
     for (const float shadow : test::hostile_floats) {
+        CHECK(test::same_bits(mask_light(0.5f, shadow, -test::infinity<float>), 0.5f));
+        CHECK(test::same_bits(mask_light(0.5f, shadow, test::infinity<float>), 0.5f));
+        CHECK(test::same_bits(mask_light(test::infinity<float>, shadow, 0.5f), test::infinity<float>));
         CHECK(test::same_bits(mask_light(0.5f, shadow, test::nan<float>), 0.5f));
         CHECK(test::is_nan(mask_light(test::nan<float>, shadow, 0.5f)));
     }

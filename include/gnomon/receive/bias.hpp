@@ -87,9 +87,10 @@ struct bias_steps {
         const float k = towards * static_cast<float>(b.roundings);
         const float rounded = towards > 0.0f ? caster_depth_error<Texel>.nearer : caster_depth_error<Texel>.farther;
         const float caster = b.caster_is_code ? 0.0f : rounded;
+        const float nearer = b.towards == bias_towards::none ? 0.0f : towards * (b.depth + caster); // also of an infinite depth
         return {static_cast<Real>(k * depth.absolute), static_cast<Real>(1.0f - (k * depth.relative + towards * own)),
                 static_cast<Real>(k * mask.absolute), static_cast<Real>(1.0f + (k * mask.relative + towards * own)),
-                static_cast<Depth>(towards * (b.depth + caster))};
+                static_cast<Depth>(nearer)};
     }
 };
 

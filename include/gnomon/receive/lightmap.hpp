@@ -4,6 +4,8 @@
 
 #include <gnomon/texel/image.hpp>
 
+#include <limits>
+
 namespace gnomon::inline GNOMON_BUILD {
 
 /// What a shadow leaves of a lightmap's light: light - shadow * max(light - ambient, 0).
@@ -12,7 +14,7 @@ namespace gnomon::inline GNOMON_BUILD {
 /// twice. `shadow` is limited to [0, 1], NaN is no shadow; a NaN light or floor gives the light itself, and
 /// so does an infinite one. Within 1 ulp of the formula.
 [[nodiscard]] constexpr float mask_light(float light, float shadow, float ambient) noexcept {
-    if (!(light > ambient)) return light;
+    if (!(light > ambient && ambient >= std::numeric_limits<float>::lowest())) return light;
     const double l = static_cast<double>(light), share = static_cast<double>(saturate(shadow));
     const double left = l - share * l + share * static_cast<double>(ambient); // exact products, so fusing them changes nothing
     return greater(ambient, lesser(light, static_cast<float>(left)));

@@ -146,7 +146,7 @@ template <int Bytes> struct emulated {
     template <int Count> [[nodiscard]] static ints repeat_last32(ints a) noexcept {
         return each<std::uint32_t>([&](int i) { return at<std::uint32_t>(a, float_lanes - Count + i % Count); });
     }
-    /// a * b / 2^Shift, unsigned, rounded down. \pre it fits, and 32 <= Shift < 64
+    /// a * b / 2^Shift, unsigned, rounded down. \pre it fits, and 28 <= Shift < 64
     template <int Shift> [[nodiscard]] static ints multiply_shift32(ints a, ints b) noexcept {
         return each<std::uint32_t>(
             [&](int i) { return std::uint64_t{at<std::uint32_t>(a, i)} * at<std::uint32_t>(b, i) >> Shift; });
