@@ -63,6 +63,13 @@ struct steep {
     static constexpr std::array weights{2, 3, 4, 6, 8, 9, 64, 9, 8, 6, 4, 3, 2};
 };
 
+/// Divided by its total, a sum beside the middle of two codes may become the middle in float.
+struct of_253 {
+    static constexpr int radius = 1;
+    static constexpr int total = 253;
+    static constexpr std::array weights{84, 85, 84};
+};
+
 /// The centre has all of the weight, which is no factor that a product takes: 256 is no byte, and 2^15 no signed word.
 struct one_tap {
     static constexpr int radius = 2;
@@ -610,6 +617,47 @@ TEST_CASE_TEMPLATE("a sum of bytes at the middle of two codes, or one unit besid
     CHECK(wrong == 0);
     CHECK(left_open == 252 * 5 * pass::step);
     CHECK(told == left_open);
+}
+
+TEST_CASE_TEMPLATE("every sum of bytes that floats hold is rounded halves upwards", Kernel, box<0>, tent<2>, tent<5>, tent<8>,
+                   tent<9>, of_253) {
+    using pass = floats<emulated<16>, Kernel, rg8>;
+    static_assert(pass::all_exact);
+    constexpr int whole = Kernel::total * Kernel::total, last = 255 * whole;
+    constexpr int around = whole / 2 < 5000 ? whole / 2 + 1 : 20; // all there are, or what is near the middle of two codes
+    int wrong = 0;
+    for (int middle = whole / 2; middle < last; middle += whole)
+        for (int first = middle - around; first <= middle + around; first += pass::step) {
+            std::array<float, std::size_t{pass::step}> made{};
+            const auto sum = [first, end = last](int k) { return std::clamp(first + k, 0, end); };
+            for (int k = 0; k < pass::step; ++k) made[static_cast<std::size_t>(k)] = static_cast<float>(sum(k));
+            emulated<16>::store(made.data(), pass::rounded(emulated<16>::load(made.data())));
+            for (int k = 0; k < pass::step; ++k)
+                wrong += static_cast<int>(made[static_cast<std::size_t>(k)]) != (2 * sum(k) + whole) / (2 * whole);
+        }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE_TEMPLATE(
+    "lanes filter as the oracle does where many codes lie at the middle of two: stripes, checkerboards, straight edges", Texel, rg8,
+    gnomon::rgba8) {
+    const auto pattern = [](const auto& is_caster) {
+        image<Texel> map({150, 60}, Texel::clear());
+        for_each_texel(whole(map.size()), [&](int x, int y) {
+            if (is_caster(x, y)) map(x, y) = Texel::caster(0.0f);
+        });
+        return map;
+    };
+    const std::array maps{pattern([](int x, int) { return x % 2 == 0; }), pattern([](int x, int y) { return (x + y) % 2 == 0; }),
+                          pattern([](int x, int y) { return x < 70 || y > 30; })};
+    for_each_isa([&]<typename Isa>() {
+        test::for_each_kernel(test::kernels<tent<5>, tent<9>, tent<19>, binomial<5>, gaussian<4>, gaussian<40>>{},
+                              [&]<typename Kernel>() {
+                                  CAPTURE(Kernel::total);
+                                  for (const auto& map : maps)
+                                      CHECK(differing<Isa, Kernel>(image_view<const Texel>(map.view()), whole(map.size())) == 0);
+                              });
+    });
 }
 
 TEST_CASE("what lanes sum of a row has whole cache lines, and its margin before it") {

@@ -29,15 +29,16 @@ template <typename Isa, typename Storage> GNOMON_INLINE void call_for(const Stor
 }
 
 /// Any texel that is filtered channel by channel: in doubles, whose sums are exact; or in floats, if that is what `fast` asks for (see
-/// filter/separable.hpp), or if codes are bytes. Of these a line is exact in float too, below 255 * 65536, and a row is all but exact:
-/// what is too near the middle of two codes is summed again.
+/// filter/separable.hpp), or if codes are bytes. Of these a line is exact in float too, below 255 * 65536, and so is a row if the total is
+/// at most 256; of any other what is too near the middle of two codes is summed again.
 template <typename Isa, kernel Kernel, texel_format Texel, typename Number> struct wide_filter {
     using by = detail::sums<Texel, Kernel>;
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
     using element = Number;
     using numbers = decltype(Isa::repeat(Number{}));
-    static constexpr bool nearly = std::same_as<Number, float> && channel_type::whole_codes; ///< are sums of rows so?
+    static constexpr bool of_bytes = std::same_as<Number, float> && channel_type::whole_codes,
+                          all_exact = of_bytes && static_cast<double>(by::whole) * 255.0 < 0x1p24; ///< rows too, of small totals
 
     static constexpr int step = Isa::bytes / static_cast<int>(sizeof(Number)); ///< channels that are made at a time
     static constexpr int planes = 1;                                           ///< that a line consists of
@@ -67,7 +68,7 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
             return Isa::add_product(Isa::add_product(sum, w, a), w, b);
     }
     GNOMON_LANES numbers codes(const storage* from) noexcept {
-        if constexpr (nearly)
+        if constexpr (of_bytes)
             return Isa::numbers(Isa::widen32(from));
         else if constexpr (by::in_floats)
             return Isa::template codes_of<channel_type, 1>(from, 0);
@@ -113,24 +114,47 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
                    Isa::template straddle<away>(here, behind));
     }
 
-    /// A register of codes to nearest, if none is in doubt. A sum of positive numbers is rounded R+4 times on its way to a code, each time
-    /// by 2^-24 of itself; so no code is off by (R+5) 2^-16.
+    /// What is a float and at most 2^22, to nearest.
+    GNOMON_LANES numbers nearest(numbers a) noexcept {
+        const numbers units = Isa::repeat(Number(0x1.8p23)); // times which a float is a whole number
+        return Isa::subtract(Isa::add(a, units), units);
+    }
+    /// Codes of sums that are exact in float, halves upwards: it is the nearest of a quarter less, or one more.
+    GNOMON_LANES numbers rounded(numbers sum) noexcept {
+        constexpr auto whole = static_cast<float>(by::whole);
+        const numbers code = nearest(Isa::add_product(Isa::repeat(-0.25f), sum, Isa::repeat(1.0f / whole)));
+        const numbers rest = Isa::add_product(sum, code, Isa::repeat(-whole));
+        return Isa::add(code, Isa::keep(Isa::not_greater(Isa::repeat(whole / 2.0f), rest), Isa::repeat(1.0f)));
+    }
+    /// A register of codes, if none is in doubt. A sum of positive numbers is rounded R+4 times on its way to a code, each time by 2^-24
+    /// of itself; so no code is off by (R+5) 2^-16.
     GNOMON_LANES bool told(numbers sum, storage* to) noexcept {
         constexpr float sure = 0.5f - static_cast<float>(Kernel::radius + 5) * 0x1p-16f;
-        const numbers units = Isa::repeat(0x1.8p23f); // times which a float is a whole number
         const numbers code = Isa::multiply(sum, Isa::repeat(static_cast<float>(1.0 / static_cast<double>(by::whole))));
-        const numbers nearest = Isa::subtract(Isa::add(code, units), units), rest = Isa::subtract(code, nearest);
+        const numbers near = nearest(code), rest = Isa::subtract(code, near);
         if (Isa::any(Isa::greater(Isa::multiply(rest, rest), Isa::repeat(sure * sure)))) return false;
-        Isa::template store_codes<channel_type>(to, nearest);
+        Isa::template store_codes<channel_type>(to, near);
         return true;
     }
+    /// The same in doubles, where each step is exact.
     static void again(const Number* line, storage* to) noexcept {
-        for (int k = 0; k < step; ++k) {
-            std::uint64_t sum = 0;
-            for (int t = 0; t < taps; ++t)
-                sum += by::template weight<std::uint64_t>(t) * static_cast<std::uint64_t>(line[k + t * Texel::channels]);
-            to[k] = static_cast<storage>((sum + by::whole / 2) / by::whole);
+        for (int k = 0; k < step; k += Isa::double_lanes) {
+            const Number* const centre = line + k + margin;
+            auto sum = Isa::multiply(Isa::repeat(static_cast<double>(weights[0])), Isa::template codes<float32>(centre));
+            GNOMON_UNROLL(16)
+            for (int d = 1; d <= Kernel::radius; ++d) {
+                const auto both = Isa::add(Isa::template codes<float32>(centre - d * Texel::channels),
+                                           Isa::template codes<float32>(centre + d * Texel::channels));
+                sum = Isa::add_product(sum, Isa::repeat(static_cast<double>(weights[static_cast<std::size_t>(d)])), both);
+            }
+            Isa::template store_codes<channel_type>(to + k, quotient(sum));
         }
+    }
+    /// Of a whole number: halves upwards, then down. The quarter keeps what is whole from being rounded below itself: sum and whole are
+    /// whole, and a quarter of 1/whole is more than the product can be wrong by, for every total there is.
+    GNOMON_LANES auto quotient(decltype(Isa::repeat(0.0)) sum) noexcept {
+        constexpr auto whole = static_cast<double>(by::whole);
+        return Isa::multiply(Isa::add(sum, Isa::repeat(static_cast<double>(by::whole / 2) + 0.25)), Isa::repeat(1.0 / whole));
     }
 
     GNOMON_LANES_VOID void row(const Number* line, int, storage* to) noexcept {
@@ -147,7 +171,9 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         GNOMON_UNROLL(16)
         for (int d = held + 1; d <= Kernel::radius; ++d)
             sum = add(sum, weight(d), Isa::load(centre - d * Texel::channels), Isa::load(centre + d * Texel::channels));
-        if constexpr (nearly) {
+        if constexpr (all_exact) {
+            sum = rounded(sum);
+        } else if constexpr (of_bytes) {
             if (!told(sum, to)) again(line, to);
             return;
         } else if constexpr (!Texel::representation_type::premultiplied) {
@@ -159,15 +185,13 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
                 to[k] = made.stored[0];
                 to[k + 1] = made.stored[1];
             }
+            return;
         } else if constexpr (channel_type::whole_codes) {
-            // Halves upwards, then down. The quarter keeps what is whole from being rounded below itself: sum and whole are whole, and
-            // a quarter of 1/whole is more than the product can be wrong by, for every total there is.
-            constexpr double half = static_cast<double>(by::whole / 2) + 0.25;
-            sum = Isa::multiply(Isa::add(sum, Isa::repeat(half)), Isa::repeat(1.0 / whole));
+            sum = quotient(sum);
         } else if constexpr (!by::in_floats || !std::has_single_bit(static_cast<unsigned>(by::weights_of::total))) {
             sum = Isa::divide(sum, Isa::repeat(whole));
         }
-        if constexpr (!nearly && Texel::representation_type::premultiplied) Isa::template store_codes<channel_type>(to, sum);
+        Isa::template store_codes<channel_type>(to, sum);
     }
 };
 
