@@ -161,12 +161,18 @@ TEST_CASE("a double is cut to so many bits upwards from a half on") {
     CHECK(test::same_bits(gnomon::detail::to_bits<36>(test::down(1.0 + 0x1p-36)), 1.0));
 }
 
-TEST_CASE("a scratch is two and a half lines as wide as the map and the kernel's radius on both sides of it, and 512 elements a "
-          "channel") {
-    CHECK(gnomon::filter_scratch_size<gnomon::rg8, box<0>>(8) == 2 * (20 + 512));
-    CHECK(gnomon::filter_scratch_size<gnomon::rgba16f, tent<5>>(8) == 4 * (45 + 512));
-    CHECK(gnomon::filter_scratch_size<gnomon::rgba16f, tent<5>>(0) == 4 * (25 + 512));
-    CHECK(gnomon::filter_scratch_size<gnomon::rgba16f, tent<5>>(-7) == 4 * (25 + 512));
+TEST_CASE("a scratch is five lines of what lanes count in, as wide as the map or a strip and the kernel's radius on both sides of "
+          "it, and "
+          "512 elements a channel") {
+    CHECK(gnomon::filter_scratch_size<gnomon::rg8, box<0>>(8) == 2 * (5 * 8 + 512));
+    CHECK(gnomon::filter_scratch_size<gnomon::rg16, gnomon::fast<tent<5>>>(8) == 2 * (5 * 23 + 512));
+    CHECK(gnomon::filter_scratch_size<gnomon::rg16, tent<5>>(8) == 2 * (5 * 2 * 23 + 512));
+    CHECK(gnomon::filter_scratch_size<gnomon::tm8, tent<5>>(8) == 2 * (5 * 2 * 23 + 512));
+    CHECK(gnomon::filter_scratch_size<gnomon::rgba16f, gnomon::fast<tent<5>>>(8) == 4 * (57 + 512)); // an element is a double
+    CHECK(gnomon::filter_scratch_size<gnomon::rgba16f, tent<5>>(0) == 4 * (75 + 512));
+    CHECK(gnomon::filter_scratch_size<gnomon::rgba16f, tent<5>>(-7) == 4 * (75 + 512));
+    CHECK(gnomon::filter_scratch_size<gnomon::rg16, tent<5>>(3000) == 2 * (5 * 2 * (2048 + 15) + 512));
+    CHECK(gnomon::filter_scratch_size<gnomon::rg16, tent<5>>(1'000'000) == 2 * (1'000'010 + 512)); // which the oracle needs
     // 65535 * 65536 < 2^32, so only products of 16-bit codes need 64 bits.
     CHECK(sizeof(gnomon::line_element<gnomon::rg16>) == 4);
     CHECK(sizeof(gnomon::line_element<gnomon::tm8>) == 4);

@@ -7,6 +7,7 @@
 #include <gnomon/texel/texel.hpp>
 
 #include <bit>
+#include <concepts>
 #include <cstdint>
 #include <span>
 #include <type_traits>
@@ -21,11 +22,16 @@ using line_element =
                        std::conditional_t<(Texel::linear_scale * kernel_total_limit < 0x1p32), std::uint32_t, std::uint64_t>>;
 
 /// The memory a filter needs beside its images, in elements, for a map of `width` texels: room for a line of wide sums, or for lanes
-/// that sum four rows at once, in narrower numbers. Nothing is read from it that the same call did not write, so it may hold anything.
+/// that sum four rows at once, 32 kB of each. Nothing is read from it that the same call did not write, so it may hold anything.
 template <texel_format Texel, kernel Kernel> [[nodiscard]] constexpr std::size_t filter_scratch_size(int width) noexcept {
-    const std::size_t line = static_cast<std::size_t>(greater(width, 0)) + 2 * static_cast<std::size_t>(Kernel::radius);
-    // Two lines hold the sums of four rows; the rest, a row of nothing and what registers reach beyond the ends.
-    return (line * 5 / 2 + 512) * static_cast<std::size_t>(Texel::channels);
+    constexpr bool bytes = std::same_as<typename Texel::channel_type, unorm8> && Texel::representation_type::premultiplied;
+    constexpr std::size_t number =
+        bytes || detail::plan<Texel, Kernel>::how != detail::arithmetic::exact ? 4 : 8; // that lanes count in
+    constexpr std::size_t strip = 32768 / number / Texel::channels, margin = std::size_t{Kernel::radius};
+    const auto texels = static_cast<std::size_t>(greater(width, 0));
+    // Four lines, which begin on cache lines, and a row of nothing, for what lies off the map; and what registers reach beyond the ends.
+    const std::size_t lanes = (lesser(texels, strip) + 3 * margin) * 5 * number / sizeof(line_element<Texel>);
+    return (greater(texels + 2 * margin, lanes) + 512) * static_cast<std::size_t>(Texel::channels);
 }
 
 /// Owns that memory; allocates in its constructor and never again.
