@@ -298,6 +298,16 @@ template <typename Isa> float middle_of_column(const std::array<float, 5>& rows)
 }
 } // namespace
 
+TEST_CASE("a map of nothing but negative zeros is filtered to zeros without a sign by lanes too") {
+    const image<gnomon::rg16f> map({70, 30}, gnomon::rg16f{{0x8000, 0x8000}});
+    for_each_isa([&]<typename Isa>() {
+        const image_view<const gnomon::rg16f> from = map.view();
+        CHECK(differing<Isa, gnomon::fast<gaussian<4>>>(from, whole(map.size())) == 0);
+        CHECK(differing<Isa, gnomon::fast<box<4>>>(from, whole(map.size())) == 0);
+        CHECK(differing<Isa, gaussian<4>>(from, whole(map.size())) == 0);
+    });
+}
+
 TEST_CASE("column sums of floats are rounded to 36 bits in lanes too, halves upwards, before they are summed across") {
     // Sixteen times the middle texel: an odd float and half a last place more, less half a last place of 36 bits, and less `missing`
     // of the bits that go. So it is the next float if 36 bits are rounded upwards, and else the odd one.
@@ -712,6 +722,9 @@ TEST_CASE("without room for a texel lanes do nothing, and say so") {
 TEST_CASE("lanes filter by radii up to 256, and ratios as far as their sums are exact in double") {
     using gnomon::on_any::filtered_in_lanes;
     CHECK((filtered_in_lanes<box<256>, rg8> && !filtered_in_lanes<box<257>, rg8>));
+    if constexpr (gnomon::detail::has_lanes<gnomon::best_isa>) // sums of a box run where lanes filter it
+        CHECK((simd<>::sums_run<box<256>, rg8> && !simd<>::sums_run<box<257>, rg8> &&
+               !simd<>::sums_run<gnomon::narrow<box<4>>, rg8>));
     CHECK((filtered_in_lanes<tent<37>, gnomon::tm16> && !filtered_in_lanes<tent<44>, gnomon::tm16>)); // 65535^2 38^4, 45^4
 }
 

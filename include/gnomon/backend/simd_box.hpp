@@ -106,7 +106,8 @@ inline constexpr bool runs_sums = [] {
 
 /// Do they, in whole numbers or in doubles?
 template <kernel Kernel, texel_format Texel>
-inline constexpr bool sums_of_box_run = runs_sums<Kernel, Texel> || runs_in_doubles<Kernel, Texel>;
+inline constexpr bool sums_of_box_run =
+    filtered_in_lanes<Kernel, Texel> && (runs_sums<Kernel, Texel> || runs_in_doubles<Kernel, Texel>);
 
 /// filter_region for a box whose sums run, for a region within both images. False, with part of it written, where a row is not summable.
 template <typename Box, kernel Kernel, texel_format Texel>
@@ -114,12 +115,13 @@ bool filter_box(image_view<const Texel> from, image_view<Texel> to, texel_rect r
     using storage = typename Texel::storage;
     constexpr int channels = Texel::channels, radius = Kernel::radius;
     const int row_size = from.width() * channels;
+    const int widest = lesser(Box::strip, region.width() * channels) + 2 * Box::margin + Box::step; // that is read of a row of sums
 
     Box box;
     alignas(64) typename Box::sum sums[static_cast<std::size_t>(Box::line_size)];
     alignas(64) storage made[static_cast<std::size_t>(Box::strip + Box::step)];
     Texel nothing[static_cast<std::size_t>(Box::line_size / channels + 1)];
-    for (Texel& each : nothing) each = Texel::clear();
+    for (int i = 0; i <= widest / channels; ++i) nothing[i] = Texel::clear();
 
     for (int x0 = region.x0 * channels; x0 < region.x1 * channels; x0 += Box::strip) {
         const int x1 = lesser(x0 + Box::strip, region.x1 * channels), left = x0 - Box::margin, right = x1 + Box::margin;
@@ -133,7 +135,7 @@ bool filter_box(image_view<const Texel> from, image_view<Texel> to, texel_rect r
             return true;
         };
         // What a column of clear sums to; then row by row what is there in its place, but for the last row of the first window.
-        for (int i = 0; i < Box::line_size; ++i) {
+        for (int i = 0; i < widest; ++i) {
             const auto each = Box::code(channels_of(nothing)[i % channels]);
             sums[i] = static_cast<typename Box::sum>(Kernel::total) * each;
         }

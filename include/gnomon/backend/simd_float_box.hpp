@@ -81,8 +81,15 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct float_box {
   private:
     /// The sums of windows: what comes in on the right goes out on the left.
     void slide(const double* sums, int count) noexcept {
-        double here[static_cast<std::size_t>(channels)]{};
-        for (int i = 0; i < window; ++i) here[i % channels] += sums[i];
+        constexpr int chains = 4 * channels; // one addition waits for another
+        double here[static_cast<std::size_t>(chains)]{};
+        int first = 0;
+        for (; first + chains <= window; first += chains) {
+            GNOMON_UNROLL(16)
+            for (int k = 0; k < chains; ++k) here[k] += sums[first + k];
+        }
+        for (; first < window; ++first) here[first % channels] += sums[first];
+        for (int k = channels; k < chains; ++k) here[k % channels] += here[k];
         for (int i = 0; i < count; i += channels) {
             GNOMON_UNROLL(4)
             for (int c = 0; c < channels; ++c) {

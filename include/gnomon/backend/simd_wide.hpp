@@ -191,6 +191,7 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         } else if constexpr (!by::in_floats || !std::has_single_bit(static_cast<unsigned>(by::weights_of::total))) {
             sum = Isa::divide(sum, Isa::repeat(whole));
         }
+        if constexpr (by::in_floats) sum = Isa::add(sum, Isa::repeat(0.0f)); // nothing is stored without a sign
         Isa::template store_codes<channel_type>(to, sum);
     }
 };

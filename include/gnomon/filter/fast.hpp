@@ -19,9 +19,12 @@ namespace gnomon::inline GNOMON_BUILD {
 ///
 /// Weights are within one unit of the kernel's proportions, and these errors are against what such weights give: by those of the kernel
 /// as it is, bytes may come out a code or two otherwise, and 16-bit codes some more. e and m are weighed alike, so no false shadow
-/// comes of it. Everything else that a filter promises still holds, in every bit on every processor: clear stays clear, e <= m, and in
-/// unorm a uniform region stays itself. `filter_roundings` tells bias the rest.
+/// comes of it. Everything else that a filter promises still holds, in every bit on every processor: clear stays clear (but for the
+/// paper's pair in half and float by totals that are no power of two, whose clear depth is 1), e <= m, and in unorm a uniform region
+/// stays itself. `filter_roundings` tells bias the rest.
 template <kernel Kernel> struct fast {
+    static_assert(
+        !requires { typename Kernel::within; }, "gnomon: fast<narrow<Kernel>>: narrow says how already; take one of the two");
     static constexpr int radius = Kernel::radius;
     static constexpr int total = Kernel::total;
     static constexpr auto weights = Kernel::weights;
@@ -32,6 +35,8 @@ template <kernel Kernel> struct fast {
 /// filter_scratch<rg8, narrow<binomial<3>>>. Columns are rounded to the texel's own numbers, then rows: so a pair is rounded twice, and
 /// unorm codes are at most one off instead of half. Half and float are computed in single precision. Not for depth_ratio.
 template <kernel Kernel> struct narrow {
+    static_assert(
+        !requires { typename Kernel::exact; }, "gnomon: narrow<fast<Kernel>>: narrow is as fast already; take one of the two");
     static constexpr int radius = Kernel::radius;
     static constexpr int total = Kernel::total;
     static constexpr auto weights = Kernel::weights;
