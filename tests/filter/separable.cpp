@@ -161,9 +161,8 @@ TEST_CASE("a double is cut to so many bits upwards from a half on") {
     CHECK(test::same_bits(gnomon::detail::to_bits<36>(test::down(1.0 + 0x1p-36)), 1.0));
 }
 
-TEST_CASE("a scratch is five lines of what lanes count in, as wide as the map or a strip and the kernel's radius on both sides of "
-          "it, and "
-          "512 elements a channel") {
+TEST_CASE("a scratch is five lines of what lanes count in, as wide as the map or a strip and three radii more, and 512 elements a "
+          "channel") {
     CHECK(gnomon::filter_scratch_size<gnomon::rg8, box<0>>(8) == 2 * (5 * 8 + 512));
     CHECK(gnomon::filter_scratch_size<gnomon::rg16, gnomon::fast<tent<5>>>(8) == 2 * (5 * 23 + 512));
     CHECK(gnomon::filter_scratch_size<gnomon::rg16, tent<5>>(8) == 2 * (5 * 2 * 23 + 512));

@@ -31,18 +31,14 @@ template <typename Isa> struct blend_rule {
     }
 };
 
-/// m z + rest times 65535, m in 65536 to a code and z in codes of 16 bits, says nothing within `doubt` of nothing. False if a receiver
-/// that has a mask lies there. Who is moved behind every caster is shadowed.
+/// decided_by_codes of a blend, m and rest in 65536 to a code. False if a receiver that has a mask lies within `doubt` of nothing.
 template <typename Isa>
 GNOMON_INLINE bool decided_by_codes(const blend_rule<Isa>& by, typename Isa::floats m, typename Isa::floats rest,
                                     typename Isa::floats mask, const std::uint16_t* depths, float doubt,
                                     typename Isa::masks& shadowed) noexcept {
-    const auto last = Isa::repeat(static_cast<float>(depth16::last));
-    const auto depth = Isa::add(Isa::template codes_of<unorm16, 1>(depths, 0), by.z);
-    const auto behind_all = Isa::keep(Isa::greater(depth, last), Isa::repeat(0x1p100f));
-    const auto sum = Isa::add(Isa::add_product(Isa::multiply(rest, last), m, depth), behind_all);
-    const auto there = Isa::both(Isa::greater(mask, Isa::repeat(0.0f)), Isa::greater(depth, by.before));
-    return surely_positive<Isa>(sum, Isa::repeat(doubt), there, shadowed);
+    const auto z = Isa::add(Isa::template codes_of<unorm16, 1>(depths, 0), by.z);
+    const auto there = Isa::both(Isa::greater(mask, Isa::repeat(0.0f)), Isa::greater(z, by.before));
+    return decided_by_codes<Isa>(m, rest, z, Isa::repeat(doubt), there, shadowed);
 }
 
 /// Pairs of bytes. Both texels of a row come in one load of 32 bits; a blend is below 2^24 and so exact in float, as is all that is

@@ -115,7 +115,7 @@ bool filter_box(image_view<const Texel> from, image_view<Texel> to, texel_rect r
     using storage = typename Texel::storage;
     constexpr int channels = Texel::channels, radius = Kernel::radius;
     const int row_size = from.width() * channels;
-    const int widest = lesser(Box::strip, region.width() * channels) + 2 * Box::margin + Box::step; // that is read of a row of sums
+    const int widest = lesser(Box::strip, region.width() * channels) + Box::window + Box::step; // that is read of a row of sums
 
     Box box;
     alignas(64) typename Box::sum sums[static_cast<std::size_t>(Box::line_size)];

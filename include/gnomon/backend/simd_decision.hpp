@@ -23,6 +23,17 @@ GNOMON_INLINE bool surely_positive(const typename Isa::floats& sum, const typena
     return !Isa::any(Isa::both(positive, Isa::not_greater(sum, doubt)));
 }
 
+/// The same of m z + rest times 65535, z in codes of 16 bits. Who is moved behind every caster is shadowed.
+template <typename Isa>
+GNOMON_INLINE bool decided_by_codes(const typename Isa::floats& m, const typename Isa::floats& rest, const typename Isa::floats& z,
+                                    const typename Isa::floats& doubt, const typename Isa::masks& asked,
+                                    typename Isa::masks& shadowed) noexcept {
+    const auto last = Isa::repeat(static_cast<float>(depth16::last));
+    const auto behind_all = Isa::keep(Isa::greater(z, last), Isa::repeat(std::numeric_limits<float>::infinity()));
+    const auto sum = Isa::add(Isa::add_product(Isa::multiply(rest, last), m, z), behind_all);
+    return surely_positive<Isa>(sum, doubt, asked, shadowed);
+}
+
 /// One register of receivers at a time. A receiver is shadowed iff e > m (1-z), see receive/decide.hpp: of a biased pair and depth, the
 /// sign of a product and a sum, exact wherever one of the functions below says that it is. What is left goes by the scalar loop:
 ///
@@ -89,25 +100,22 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                                      masks& shadowed) noexcept {
         const floats depth = Isa::load(depths), zero = Isa::repeat(0.0f), half = Isa::repeat(0.5f);
         const floats z = Isa::subtract(depth, by.nearer);
-        const masks near = Isa::greater(half, z);
-        const floats beyond = Isa::subtract(z, Isa::drop(near, Isa::repeat(1.0f)));
-        const floats rest = Isa::subtract(e, Isa::keep(near, m));
+        const masks first_half = Isa::greater(half, z);
+        const floats beyond = Isa::subtract(z, Isa::drop(first_half, Isa::repeat(1.0f)));
+        const floats rest = Isa::subtract(e, Isa::keep(first_half, m));
         shadowed = Isa::both(Isa::positive(m, beyond, rest), Isa::both(there, Isa::greater(depth, zero)));
         if (by.by_rule->lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
         return !Isa::any(Isa::both(there, Isa::not_greater(m, by.least_mask))) &&
                !(by.next_to_nothing && Isa::any(Isa::both(Isa::greater(z, zero), Isa::greater(Isa::repeat(0x1p-50f), z))));
     }
     /// m z + (e-m) 65535 > 0, z in codes. Three roundings are wrong by 3 * 2^-24 * 65535 m < m/64 at most where the two cancel; so
-    /// within m/16 of nothing the sum says nothing. Who is moved behind every caster is shadowed.
+    /// within m/16 of nothing the sum says nothing.
     GNOMON_LANES bool decided_sums(const decision& by, const floats& e, const floats& m, const masks& there,
                                    const std::uint16_t* depths, masks& shadowed) noexcept {
-        const floats last = Isa::repeat(static_cast<float>(depth16::last));
         const floats z = Isa::subtract(Isa::template codes_of<unorm16, 1>(depths, 0), by.nearer);
-        const floats behind_all = Isa::keep(Isa::greater(z, last), Isa::repeat(std::numeric_limits<float>::infinity()));
-        const floats sum = Isa::add(Isa::add_product(Isa::multiply(Isa::subtract(e, m), last), m, z), behind_all);
         const floats doubt = Isa::multiply(m, Isa::repeat(0.0625f));
         const masks asked = Isa::both(there, Isa::greater(z, by.before));
-        return surely_positive<Isa>(sum, doubt, asked, shadowed) &&
+        return decided_by_codes<Isa>(m, Isa::subtract(e, m), z, doubt, asked, shadowed) &&
                !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) &&
                !(std::same_as<channel_type, float32> && Isa::any(Isa::both(asked, Isa::greater(m, Isa::repeat(0x1p100f)))));
     }

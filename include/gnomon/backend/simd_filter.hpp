@@ -35,15 +35,14 @@ inline constexpr bool filtered_in_lanes = [] {
 /// What serves a texel and a kernel best. All give the same bits where several can.
 template <typename Isa, kernel Kernel, texel_format Texel> consteval auto choose_filter() {
     using by = detail::sums<Texel, Kernel>;
-    constexpr bool of_bytes = Texel::representation_type::premultiplied && std::same_as<typename Texel::channel_type, unorm8>;
-    constexpr bool bytes = of_bytes && in_eight_bits<typename by::weights_of>;
+    constexpr bool bytes = detail::premultiplied_bytes<Texel> && in_eight_bits<typename by::weights_of>;
     constexpr bool words = by::stored_between;
     if constexpr ((bytes || words) && Texel::channels == 2)
         return std::type_identity<pair_filter<Isa, Kernel, Texel>>{};
     else if constexpr (bytes || words)
         return std::type_identity<word_filter<Isa, Kernel, Texel>>{};
     else
-        return std::type_identity<wide_filter<Isa, Kernel, Texel, std::conditional_t<by::in_floats || of_bytes, float, double>>>{};
+        return std::type_identity<wide_filter<Isa, Kernel, Texel, detail::lane_number<Texel, Kernel>>>{};
 }
 template <typename Isa, kernel Kernel, texel_format Texel>
 using filter_of = typename decltype(choose_filter<Isa, Kernel, Texel>())::type;

@@ -15,7 +15,7 @@ namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
 /// Rows that are summed side by side; the bytes that a strip's sums of one row take, at most; and those of a row that pass the caches by
 /// at a time.
-inline constexpr int rows_at_once = 4, strip_bytes = 32768, piece_bytes = 4096;
+inline constexpr int rows_at_once = detail::lane_rows, strip_bytes = detail::lane_strip_bytes, piece_bytes = 4096;
 
 /// What is read is called for ahead of time in a map as large as this, by narrow regions in one a quarter as large; and a result as
 /// large as that is written past the caches, whole rows if the map is. Both where filtering and receiving together gained by it.
@@ -116,7 +116,7 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
 
     /// What is a float and at most 2^22, to nearest.
     GNOMON_LANES numbers nearest(numbers a) noexcept {
-        const numbers units = Isa::repeat(Number(0x1.8p23)); // times which a float is a whole number
+        const numbers units = Isa::repeat(0x1.8p23f); // times which a float is a whole number
         return Isa::subtract(Isa::add(a, units), units);
     }
     /// Codes of sums that are exact in float, halves upwards: it is the nearest of a quarter less, or one more.
@@ -131,9 +131,9 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
     GNOMON_LANES bool told(numbers sum, storage* to) noexcept {
         constexpr float sure = 0.5f - static_cast<float>(Kernel::radius + 5) * 0x1p-16f;
         const numbers code = Isa::multiply(sum, Isa::repeat(static_cast<float>(1.0 / static_cast<double>(by::whole))));
-        const numbers near = nearest(code), rest = Isa::subtract(code, near);
+        const numbers made = nearest(code), rest = Isa::subtract(code, made);
         if (Isa::any(Isa::greater(Isa::multiply(rest, rest), Isa::repeat(sure * sure)))) return false;
-        Isa::template store_codes<channel_type>(to, near);
+        Isa::template store_codes<channel_type>(to, made);
         return true;
     }
     /// The same in doubles, where each step is exact.
@@ -191,7 +191,8 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         } else if constexpr (!by::in_floats || !std::has_single_bit(static_cast<unsigned>(by::weights_of::total))) {
             sum = Isa::divide(sum, Isa::repeat(whole));
         }
-        if constexpr (by::in_floats) sum = Isa::add(sum, Isa::repeat(0.0f)); // nothing is stored without a sign
+        if constexpr (by::in_floats && std::same_as<channel_type, half16>) // no zero has a sign; floats lose it as they are stored
+            sum = Isa::add(sum, Isa::repeat(0.0f));
         Isa::template store_codes<channel_type>(to, sum);
     }
 };

@@ -21,16 +21,29 @@ using line_element =
     std::conditional_t<!Texel::channel_type::whole_codes, double,
                        std::conditional_t<(Texel::linear_scale * kernel_total_limit < 0x1p32), std::uint32_t, std::uint64_t>>;
 
+namespace detail {
+
+template <texel_format Texel>
+inline constexpr bool premultiplied_bytes =
+    std::same_as<typename Texel::channel_type, unorm8> && Texel::representation_type::premultiplied;
+
+/// What lanes that go channel by channel count in: floats, which hold every column of bytes, or if that is what `fast` asks for.
+template <texel_format Texel, kernel Kernel>
+using lane_number = std::conditional_t<premultiplied_bytes<Texel> || plan<Texel, Kernel>::how != arithmetic::exact, float, double>;
+
+/// Rows that lanes sum side by side, and the bytes that a strip's sums of one row take, at most.
+inline constexpr int lane_rows = 4, lane_strip_bytes = 32768;
+
+} // namespace detail
+
 /// The memory a filter needs beside its images, in elements, for a map of `width` texels: room for a line of wide sums, or for lanes
 /// that sum four rows at once, 32 kB of each. Nothing is read from it that the same call did not write, so it may hold anything.
 template <texel_format Texel, kernel Kernel> [[nodiscard]] constexpr std::size_t filter_scratch_size(int width) noexcept {
-    constexpr bool bytes = std::same_as<typename Texel::channel_type, unorm8> && Texel::representation_type::premultiplied;
-    constexpr std::size_t number =
-        bytes || detail::plan<Texel, Kernel>::how != detail::arithmetic::exact ? 4 : 8; // that lanes count in
-    constexpr std::size_t strip = 32768 / number / Texel::channels, margin = std::size_t{Kernel::radius};
+    constexpr std::size_t number = sizeof(detail::lane_number<Texel, Kernel>), margin = std::size_t{Kernel::radius};
+    constexpr std::size_t strip = detail::lane_strip_bytes / number / Texel::channels, lines = detail::lane_rows + 1;
     const auto texels = static_cast<std::size_t>(greater(width, 0));
-    // Four lines, which begin on cache lines, and a row of nothing, for what lies off the map; and what registers reach beyond the ends.
-    const std::size_t lanes = (lesser(texels, strip) + 3 * margin) * 5 * number / sizeof(line_element<Texel>);
+    // A line a row, which begins on a cache line, and one of nothing, for what lies off the map; and what registers reach beyond the ends.
+    const std::size_t lanes = (lesser(texels, strip) + 3 * margin) * lines * number / sizeof(line_element<Texel>);
     return (greater(texels + 2 * margin, lanes) + 512) * static_cast<std::size_t>(Texel::channels);
 }
 
