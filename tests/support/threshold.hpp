@@ -27,9 +27,9 @@ template <gnomon::texel_format Texel>
 
 inline constexpr float beyond_every_test = 16.0f;
 
-/// The smallest z whose receiver is shadowed, `beyond_every_test` if there is none so near; by bisection, for a decision never
+/// The smallest z whose receiver is shadowed, on a texel or a sample, `beyond_every_test` if there is none so near; by bisection, for a decision never
 /// changes back from shadowed to lit as z grows.
-template <gnomon::texel_format Texel> [[nodiscard]] float first_shadowed(const Texel& texel, const gnomon::rule& rule) {
+template <typename Texel> [[nodiscard]] float first_shadowed(const Texel& texel, const gnomon::rule& rule) {
     std::uint32_t lit = 0, shadowed = std::bit_cast<std::uint32_t>(beyond_every_test); // positive floats are ordered as their bits
     while (shadowed - lit > 1) {
         const std::uint32_t middle = lit + (shadowed - lit) / 2;

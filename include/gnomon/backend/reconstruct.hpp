@@ -2,6 +2,7 @@
 // needs the texels and the decision, no map, grid or filter.
 #pragma once
 
+#include <gnomon/backend/lane_formats.hpp>
 #include <gnomon/receive/receive.hpp>
 #include <gnomon/simd/isa.hpp>
 
@@ -35,42 +36,41 @@ struct best_isa {};
 
 namespace detail {
 
-/// Lanes read and write these; a channel of a user's goes by the scalar loops.
-template <typename Channel>
-concept channel_of_lanes = std::same_as<Channel, unorm8> || std::same_as<Channel, unorm16> || std::same_as<Channel, half16> ||
-                           std::same_as<Channel, float32>;
-
 /// Does this build have these lanes?
 template <typename Isa>
 inline constexpr bool has_lanes = GNOMON_X86 + GNOMON_NEON + GNOMON_WASM > 0 || !std::same_as<Isa, best_isa>;
+
+/// Each target's code goes by its own name.
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+void receive_on(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
+                const rule& r) noexcept {
+#if GNOMON_X86
+    if constexpr (std::same_as<Isa, avx512>)
+        on_avx512::receive_row<avx512>(texels, z, intensity, r);
+    else if constexpr (std::same_as<Isa, avx2>)
+        on_avx2::receive_row<avx2>(texels, z, intensity, r);
+    else
+#endif
+        on_any::receive_row<Isa>(texels, z, intensity, r);
+}
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
+void receive_points_on(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
+                       strided_span<const Depth> z, strided_span<Intensity> intensity, const rule& r) noexcept {
+#if GNOMON_X86
+    if constexpr (std::same_as<Isa, avx512>)
+        on_avx512::receive_points<avx512>(map, x, y, z, intensity, r);
+    else if constexpr (std::same_as<Isa, avx2>)
+        on_avx2::receive_points<avx2>(map, x, y, z, intensity, r);
+    else
+#endif
+        on_any::receive_points<Isa>(map, x, y, z, intensity, r);
+}
 
 /// What a processor must have to run them.
 template <typename Isa> inline constexpr cpu_level level_needed = cpu_level::portable;
 #if GNOMON_X86
 template <> inline constexpr cpu_level level_needed<avx2> = cpu_level::avx2;
 template <> inline constexpr cpu_level level_needed<avx512> = cpu_level::avx512;
-
-/// Each target's code goes by its own name.
-template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
-void receive_on(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
-                const rule& r) noexcept {
-    if constexpr (std::same_as<Isa, avx512>)
-        on_avx512::receive_row<avx512>(texels, z, intensity, r);
-    else if constexpr (std::same_as<Isa, avx2>)
-        on_avx2::receive_row<avx2>(texels, z, intensity, r);
-    else
-        on_any::receive_row<Isa>(texels, z, intensity, r);
-}
-template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
-bool receive_points_on(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
-                       strided_span<const Depth> z, strided_span<Intensity> intensity, const rule& r) noexcept {
-    if constexpr (std::same_as<Isa, avx512>)
-        return on_avx512::receive_points<avx512>(map, x, y, z, intensity, r);
-    else if constexpr (std::same_as<Isa, avx2>)
-        return on_avx2::receive_points<avx2>(map, x, y, z, intensity, r);
-    else
-        return on_any::receive_points<Isa>(map, x, y, z, intensity, r);
-}
 
 /// Calls f.template operator()<Isa>() with the lanes of a level.
 template <typename F> auto with_lanes(cpu_level level, F&& f) noexcept {
@@ -79,17 +79,6 @@ template <typename F> auto with_lanes(cpu_level level, F&& f) noexcept {
     return f.template operator()<sse2>();
 }
 #else
-template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
-void receive_on(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
-                const rule& r) noexcept {
-    on_any::receive_row<Isa>(texels, z, intensity, r);
-}
-template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
-bool receive_points_on(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
-                       strided_span<const Depth> z, strided_span<Intensity> intensity, const rule& r) noexcept {
-    return on_any::receive_points<Isa>(map, x, y, z, intensity, r);
-}
-
 #if GNOMON_NEON
 using only_lanes = neon;
 #elif GNOMON_WASM
@@ -136,16 +125,15 @@ void reconstruct(const Row& texels, const Depths& z, Intensities&& intensity, co
     const strided_span<const Depth> depths{strided_span(z)};
     const strided_span out(intensity);
     using Intensity = typename decltype(out)::element_type;
-    if constexpr (detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
-                  on_any::decided_in_lanes<Texel, Depth, Intensity>)
+    if constexpr (detail::has_lanes<Isa> && detail::decided_in_lanes<Texel, Intensity>)
         if (detail::in_lanes<Isa>([&]<typename Lanes>() { return detail::receive_on<Lanes>(row, depths, out, r), true; })) return;
     receive(row, depths, out, r);
 }
 
 /// The same for receivers anywhere: at (x[i], y[i]) in texels, blended from four.
 ///
-/// In lanes go depth_mask pairs of unorm8, for rules of at most one rounding, and of unorm16, of at most 128, on maps of 2 to 2^21 texels
-/// a side and less than 2^31 bytes; what does not goes by the scalar loop.
+/// In lanes go depth_mask pairs of unorm8 and unorm16, for rules of at most 128 roundings, on maps of 2 to 2^21 texels a side and less
+/// than 2^31 bytes; what does not goes by the scalar loop.
 template <typename Isa = best_isa, typename T, depth_row Depths, intensity_row Intensities>
     requires texel_format<std::remove_const_t<T>>
 void reconstruct(image_view<T> map, strided_span<const float> x, strided_span<const float> y, const Depths& z,
@@ -155,8 +143,10 @@ void reconstruct(image_view<T> map, strided_span<const float> x, strided_span<co
     const image_view<const Texel> texels = map;
     const strided_span<const Depth> depths{strided_span(z)};
     const strided_span out(intensity);
-    if constexpr (detail::has_lanes<Isa> && on_any::blended_in_lanes<Texel>)
-        if (detail::in_lanes<Isa>([&]<typename Lanes>() { return detail::receive_points_on<Lanes>(texels, x, y, depths, out, r); }))
+    if constexpr (detail::has_lanes<Isa> && detail::blended_in_lanes<Texel>)
+        if (detail::blended_on(texels, r) && detail::in_lanes<Isa>([&]<typename Lanes>() {
+                return detail::receive_points_on<Lanes>(texels, x, y, depths, out, r), true;
+            }))
             return;
     receive(texels, x, y, depths, out, r);
 }

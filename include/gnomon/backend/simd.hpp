@@ -32,25 +32,19 @@ namespace gnomon::inline GNOMON_BUILD {
 
 namespace detail {
 
-#if GNOMON_X86
 /// Each target's code goes by its own name.
 template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
                std::span<line_element<Texel>> scratch) noexcept {
+#if GNOMON_X86
     if constexpr (std::same_as<Isa, avx512>)
         return on_avx512::filter<avx512, Kernel, Texel>(from, to, region, scratch);
     else if constexpr (std::same_as<Isa, avx2>)
         return on_avx2::filter<avx2, Kernel, Texel>(from, to, region, scratch);
     else
+#endif
         return on_any::filter<Isa, Kernel, Texel>(from, to, region, scratch);
 }
-#else
-template <typename Isa, kernel Kernel, texel_format Texel>
-bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
-               std::span<line_element<Texel>> scratch) noexcept {
-    return on_any::filter<Isa, Kernel, Texel>(from, to, region, scratch);
-}
-#endif
 
 } // namespace detail
 

@@ -21,13 +21,17 @@ template <typename Isa> struct blend_rule {
     typename Isa::floats e, m, z; ///< what pair and receiver are moved by
     typename Isa::floats before;  ///< a depth in codes there, once moved, is lit
     bool lit_beyond;
+    bool one_rounding; ///< at most
 
     template <texel_format Texel, typename Depth> [[nodiscard]] static blend_rule of(const rule& r) noexcept {
         const biased<> moved = apply<Texel>(r.caster, 0.0, 0.0, 0.0f);
         const int codes = codes_towards_light<Texel>(r.caster);
-        return {Isa::repeat(static_cast<float>(moved.e) * blend_whole), Isa::repeat(static_cast<float>(moved.m) * blend_whole),
+        return {Isa::repeat(static_cast<float>(moved.e) * blend_whole),
+                Isa::repeat(static_cast<float>(moved.m) * blend_whole),
                 Isa::repeat(std::same_as<Depth, std::uint16_t> ? static_cast<float>(-codes) : moved.z),
-                Isa::repeat(static_cast<float>(greater(0, -codes))), r.lit_beyond};
+                Isa::repeat(static_cast<float>(greater(0, -codes))),
+                r.lit_beyond,
+                r.caster.roundings <= 1};
     }
 };
 
@@ -47,8 +51,8 @@ template <typename Isa, texel_format Texel> struct byte_blend {
     using ints = typename Isa::ints;
     using floats = typename Isa::floats;
     using masks = typename Isa::masks;
-    using number = float;                    ///< of the weights down the columns
-    static constexpr int most_roundings = 1; ///< biases of one keep the pair below 2^24
+    using number = float;                  ///< of the weights down the columns
+    static constexpr float doubt = 0x1p3f; ///< an 8192nd of a code
 
     struct pair {
         floats e, m;
@@ -74,20 +78,21 @@ template <typename Isa, texel_format Texel> struct byte_blend {
         return {Isa::add_product(Isa::multiply(e, here), e_next, next), Isa::add_product(Isa::multiply(m, here), m_next, next)};
     }
 
-    /// m z + (e-m) > 0, exactly; where there is no mask there is no intensity either.
+    /// m z + (e-m) > 0. A bias of one rounding keeps the pair below 2^24, and this exact; one of more below 2^25, so that one of e and
+    /// m, e-m, and m z where it cancels are rounded by 1 each.
     GNOMON_LANES bool decided(const blend_rule<Isa>& by, const pair& blended, const float* depths, masks& shadowed) noexcept {
-        const floats e = Isa::add(blended.e, by.e), m = Isa::add(blended.m, by.m);
-        const floats zero = Isa::repeat(0.0f), depth = Isa::load(depths);
-        shadowed = Isa::positive(m, Isa::add(depth, by.z), Isa::subtract(e, m));
-        shadowed = Isa::both(shadowed, Isa::greater(depth, zero));
-        if (by.lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
+        const floats e = Isa::add(blended.e, by.e), m = Isa::add(blended.m, by.m), rest = Isa::subtract(e, m);
+        const floats depth = Isa::load(depths), z = Isa::add(depth, by.z);
+        const masks asked = may_be_shadowed<Isa>(Isa::greater(blended.m, Isa::repeat(0.0f)), depth, by.lit_beyond);
+        if (!by.one_rounding) return surely_positive<Isa>(Isa::add_product(rest, m, z), Isa::repeat(doubt), asked, shadowed);
+        shadowed = Isa::both(asked, Isa::positive(m, z, rest));
         return true;
     }
-    /// Sums of 2^40 are rounded three times, each time by 2^16 at most.
+    /// The same with terms of 2^41, which are rounded by 2^16 each.
     GNOMON_LANES bool decided(const blend_rule<Isa>& by, const pair& blended, const std::uint16_t* depths,
                               masks& shadowed) noexcept {
         const floats e = Isa::add(blended.e, by.e), m = Isa::add(blended.m, by.m);
-        return decided_by_codes(by, m, Isa::subtract(e, m), blended.m, depths, 0x1p18f, shadowed);
+        return decided_by_codes(by, m, Isa::subtract(e, m), blended.m, depths, doubt * 0x1p17f, shadowed);
     }
 
     GNOMON_LANES_VOID void store(float* to, const masks& shadowed, const pair& blended) noexcept {
@@ -110,8 +115,7 @@ template <typename Isa, texel_format Texel> struct word_blend {
     using floats = typename Isa::floats;
     using masks = typename Isa::masks;
     using number = std::uint32_t;
-    static constexpr int most_roundings = 128; ///< what they move the lower halves by keeps these below 2^24
-    static constexpr float doubt = 0x1p12f;    ///< a 16th of a code
+    static constexpr float doubt = 0x1p12f; ///< a 16th of a code
 
     struct pair {
         ints e, m;
@@ -169,10 +173,8 @@ template <typename Isa, texel_format Texel> struct word_blend {
     /// m z + (e-m) > 0. Where the two cancel they are less than 2^34, and all that is rounded of them less than 2^11.
     GNOMON_LANES bool decided(const blend_rule<Isa>& by, const pair& blended, const float* depths, masks& shadowed) noexcept {
         const moved of = move(by, blended);
-        const floats zero = Isa::repeat(0.0f), depth = Isa::load(depths);
-        const floats sum = Isa::add_product(of.rest, of.m, Isa::add(depth, by.z));
-        const masks there = Isa::both(Isa::greater(mask_of(blended), zero), Isa::greater(depth, zero));
-        const masks asked = by.lit_beyond ? Isa::both(there, Isa::not_greater(depth, Isa::repeat(1.0f))) : there;
+        const floats depth = Isa::load(depths), sum = Isa::add_product(of.rest, of.m, Isa::add(depth, by.z));
+        const masks asked = may_be_shadowed<Isa>(Isa::greater(mask_of(blended), Isa::repeat(0.0f)), depth, by.lit_beyond);
         return surely_positive<Isa>(sum, Isa::repeat(doubt), asked, shadowed);
     }
     GNOMON_LANES bool decided(const blend_rule<Isa>& by, const pair& blended, const std::uint16_t* depths,

@@ -11,12 +11,6 @@
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
-/// Pairs of two numbers of a channel; and of two bytes.
-template <texel_format Texel, typename Channel>
-inline constexpr bool pairs_of =
-    decidable_pairs<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, Channel>;
-template <texel_format Texel> inline constexpr bool byte_pairs = pairs_of<Texel, unorm8>;
-
 /// A register of one number.
 template <typename Isa> [[nodiscard]] GNOMON_INLINE typename Isa::ints words(int n) noexcept {
     return Isa::repeat32(std::uint32_t{static_cast<std::uint16_t>(n)} * 0x10001u);

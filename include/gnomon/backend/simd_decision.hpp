@@ -11,9 +11,13 @@
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
-/// Premultiplied pairs that no receiver bounds: what lanes decide.
-template <texel_format Texel>
-inline constexpr bool decidable_pairs = !Texel::effects.far_bound && std::same_as<typename Texel::representation_type, depth_mask>;
+/// Those of `asked` that lie where shadow may fall at all.
+template <typename Isa>
+GNOMON_INLINE typename Isa::masks may_be_shadowed(const typename Isa::masks& asked, const typename Isa::floats& depth,
+                                                  bool lit_beyond) noexcept {
+    const auto there = Isa::both(asked, Isa::greater(depth, Isa::repeat(0.0f)));
+    return lit_beyond ? Isa::both(there, Isa::not_greater(depth, Isa::repeat(1.0f))) : there;
+}
 
 /// Whose sums are above nothing, of those `asked`. False if one of these lies within `doubt` of it.
 template <typename Isa>
@@ -88,10 +92,8 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     GNOMON_LANES masks decided_codes(const decision& by, const floats& e, const floats& m, const float* depths) noexcept {
         const floats depth = Isa::load(depths), rest = Isa::subtract(e, m);
         // Doubled they are whole, and times the least depth there is still something.
-        masks shadowed = Isa::positive(Isa::add(m, m), Isa::subtract(depth, by.nearer), Isa::add(rest, rest));
-        shadowed = Isa::both(shadowed, Isa::greater(depth, Isa::repeat(0.0f)));
-        if (by.by_rule->lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
-        return shadowed;
+        const masks behind = Isa::positive(Isa::add(m, m), Isa::subtract(depth, by.nearer), Isa::add(rest, rest));
+        return may_be_shadowed<Isa>(behind, depth, by.by_rule->lit_beyond);
     }
     /// For z < 1/2 the same: e-m is exact if m/2 <= e <= 2m, and if e is less, m z < m/2 is less than m-e either way, if more, all from
     /// z = -1 on are shadowed. Else m (z-1) + e > 0, where z-1 is exact up to 2^24, and beyond that everything is behind every caster
@@ -103,8 +105,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         const masks first_half = Isa::greater(half, z);
         const floats beyond = Isa::subtract(z, Isa::drop(first_half, Isa::repeat(1.0f)));
         const floats rest = Isa::subtract(e, Isa::keep(first_half, m));
-        shadowed = Isa::both(Isa::positive(m, beyond, rest), Isa::both(there, Isa::greater(depth, zero)));
-        if (by.by_rule->lit_beyond) shadowed = Isa::both(shadowed, Isa::not_greater(depth, Isa::repeat(1.0f)));
+        shadowed = may_be_shadowed<Isa>(Isa::both(there, Isa::positive(m, beyond, rest)), depth, by.by_rule->lit_beyond);
         return !Isa::any(Isa::both(there, Isa::not_greater(m, by.least_mask))) &&
                !(by.next_to_nothing && Isa::any(Isa::both(Isa::greater(z, zero), Isa::greater(Isa::repeat(0x1p-50f), z))));
     }

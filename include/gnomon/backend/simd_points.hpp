@@ -1,6 +1,8 @@
 // gnomon: soft shadow maps. The decision in lanes, for receivers anywhere on a map. Included like simd_receive.hpp, and after it.
 
+#include <gnomon/backend/lane_formats.hpp>
 #include <gnomon/backend/simd_blend.hpp>
+#include <gnomon/backend/stretch.hpp>
 #include <gnomon/receive/receive.hpp>
 #include <gnomon/simd/region.hpp>
 
@@ -13,7 +15,7 @@ namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
 /// Receivers anywhere on a map of pairs, a register at a time.
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct blended_decision {
-    using blending = std::conditional_t<byte_pairs<Texel>, byte_blend<Isa, Texel>, word_blend<Isa, Texel>>;
+    using blending = std::conditional_t<detail::byte_pairs<Texel>, byte_blend<Isa, Texel>, word_blend<Isa, Texel>>;
     using ints = typename Isa::ints;
     using floats = typename Isa::floats;
     using masks = typename Isa::masks;
@@ -43,14 +45,6 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     floats right, bottom;               ///< left of and above these lie texels that have a next one
     blend_rule<Isa> by_rule;
 
-    /// Offsets are of 32 bits, and a row has two texels for a load.
-    [[nodiscard]] static bool serves(image_view<const Texel> map, const rule& r) noexcept {
-        constexpr int most = 1 << 21;
-        constexpr int bytes = static_cast<int>(sizeof(Texel));
-        const std::ptrdiff_t row = map.stride() < 0 ? -map.stride() : map.stride();
-        return r.caster.roundings <= blending::most_roundings && map.width() >= 2 && map.height() >= 2 && map.width() <= most &&
-               map.height() <= most && row <= (0x7FFFFFFF - bytes * map.width()) / map.height();
-    }
     [[nodiscard]] static blended_decision of(image_view<const Texel> map, const rule& r) noexcept {
         const auto word = [](int n) { return static_cast<std::uint32_t>(n); };
         return {map.data(),
@@ -137,35 +131,24 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     }
 };
 
-/// What lanes blend and decide.
-template <texel_format Texel> inline constexpr bool blended_in_lanes = byte_pairs<Texel> || pairs_of<Texel, unorm16>;
-
-/// Receivers anywhere, spans of any stride. False, and nothing done, where the lanes do not serve.
+/// Receivers anywhere. \pre detail::blended_on
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
-bool receive_points(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
+void receive_points(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
                     strided_span<const Depth> z, strided_span<Intensity> intensity, const rule& r) noexcept {
     using blended = blended_decision<Isa, Texel, Depth, Intensity>;
-    constexpr int step = blended::step;
-    if (!blended::serves(map, r)) return false;
+    using part = detail::stretch<blended::step>;
     const auto by = blended::of(map, r);
     const int count = lesser(lesser(x.size(), y.size()), lesser(z.size(), intensity.size()));
     const bool side_by_side = x.contiguous() && y.contiguous() && z.contiguous() && intensity.contiguous();
-    const int together = side_by_side ? count - count % step : 0;
-    constexpr int at_once = 1 << 30; // so that no count overflows
-    for (int i = 0, here; i < together; i += here) {
-        here = lesser(at_once, together - i);
-        blended::some(by, map, &x[i], &y[i], &z[i], &intensity[i], here, r);
+    typename part::template copy<float> px, py;
+    typename part::template copy<Depth> depth;
+    typename part::template copy<Intensity> made;
+    for (int i = 0; i < count;) {
+        const part now(i, count, side_by_side);
+        blended::some(by, map, now.of(x, px), now.of(y, py), now.of(z, depth), now.to(intensity, made), now.rounded(), r);
+        now.put(intensity, made);
+        i += now.count;
     }
-    for (int i = together, here; i < count; i += here) {
-        here = lesser(step, count - i);
-        float px[static_cast<std::size_t>(step)]{}, py[static_cast<std::size_t>(step)]{};
-        Depth depth[static_cast<std::size_t>(step)]{};
-        Intensity made[static_cast<std::size_t>(step)];
-        for (int k = 0; k < here; ++k) px[k] = x[i + k], py[k] = y[i + k], depth[k] = z[i + k];
-        blended::some(by, map, px, py, depth, made, step, r);
-        for (int k = 0; k < here; ++k) intensity[i + k] = made[k];
-    }
-    return true;
 }
 
 } // namespace gnomon::inline GNOMON_BUILD::GNOMON_ON

@@ -172,9 +172,25 @@ struct avx2 {
             const __m128i first = _mm_loadu_si128(pairs), second = _mm_loadu_si128(pairs + 1);
             return channel_of_pairs(_mm256_cvtph_ps(_mm_unpacklo_epi64(first, second)),
                                     _mm256_cvtph_ps(_mm_unpackhi_epi64(first, second)), c);
+        } else if constexpr (Channel::whole_codes && Channels == 3) {
+            return numbers(thirds(from + c));
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
+    }
+
+    /// Codes 0, 3, 6, 9, 12, 15, 18 and 21; none behind them is read.
+    GNOMON_LANES ints thirds(const std::uint8_t* from) noexcept {
+        const __m128i low = sixteen_bytes(from), high = sixteen_bytes(from + 6);
+        return both_halves(_mm_shuffle_epi8(low, _mm_setr_epi32(byte(0), byte(3), byte(6), byte(9))),
+                           _mm_shuffle_epi8(high, _mm_setr_epi32(byte(6), byte(9), byte(12), byte(15))));
+    }
+    GNOMON_LANES ints thirds(const std::uint16_t* from) noexcept {
+        const __m128i low = sixteen_bytes(from), middle = sixteen_bytes(from + 8), high = sixteen_bytes(from + 14);
+        return both_halves(_mm_or_si128(_mm_shuffle_epi8(low, _mm_setr_epi32(word(0), word(3), word(6), -1)),
+                                        _mm_shuffle_epi8(middle, _mm_setr_epi32(-1, -1, -1, word(1)))),
+                           _mm_or_si128(_mm_shuffle_epi8(middle, _mm_setr_epi32(word(4), word(7), -1, -1)),
+                                        _mm_shuffle_epi8(high, _mm_setr_epi32(-1, -1, word(4), word(7)))));
     }
 
     GNOMON_LANES floats numbers(ints a) noexcept { return _mm256_cvtepi32_ps(a); }
@@ -275,6 +291,15 @@ struct avx2 {
     }
 
   private:
+    GNOMON_LANES __m128i sixteen_bytes(const void* from) noexcept { return _mm_loadu_si128(static_cast<const __m128i*>(from)); }
+    GNOMON_LANES ints both_halves(__m128i low, __m128i high) noexcept {
+        return _mm256_inserti128_si256(_mm256_castsi128_si256(low), high, 1);
+    }
+    /// Where a shuffle of bytes takes a number of 32 bits from: the `i`th of 16 bytes, or of 8 words.
+    [[nodiscard]] static constexpr int byte(int i) noexcept { return static_cast<int>(0x80808000u | static_cast<unsigned>(i)); }
+    [[nodiscard]] static constexpr int word(int i) noexcept {
+        return static_cast<int>(0x80800100u | static_cast<unsigned>(2 * i) * 0x101u);
+    }
     /// In each 16 bytes: words 0, 2, 4, 6, and 1, 3, 5, 7 behind them.
     GNOMON_LANES ints words_apart(ints a) noexcept {
         return _mm256_shuffle_epi8(

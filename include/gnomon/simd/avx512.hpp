@@ -3,6 +3,7 @@
 
 #include <gnomon/simd/region.hpp>
 #if GNOMON_X86
+#include <gnomon/simd/avx2.hpp>
 #include <gnomon/simd/emulated.hpp>
 
 #include <array>
@@ -171,6 +172,9 @@ struct avx512 {
             const auto* const pairs = reinterpret_cast<const __m256i*>(from);
             return channel_of_pairs(_mm512_maskz_cvtph_ps(all, _mm256_loadu_si256(pairs)),
                                     _mm512_maskz_cvtph_ps(all, _mm256_loadu_si256(pairs + 1)), c);
+        } else if constexpr (Channel::whole_codes && Channels == 3) {
+            const ints first = _mm512_maskz_broadcast_i64x4(0x0F, avx2::thirds(from + c));
+            return numbers(_mm512_mask_broadcast_i64x4(first, 0xF0, avx2::thirds(from + c + 24)));
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }

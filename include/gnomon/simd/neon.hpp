@@ -170,6 +170,9 @@ struct neon {
         } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
             const float32x4x2_t pairs = vld2q_f32(from);
             return pairs.val[c];
+        } else if constexpr (Channel::whole_codes) {
+            const auto* const codes = from + c;
+            return number(uint16x4_t{codes[0], codes[Channels], codes[2 * Channels], codes[3 * Channels]});
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }

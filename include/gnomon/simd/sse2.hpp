@@ -176,6 +176,9 @@ struct sse2 {
             return numbers(widen32(from));
         } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
             return c == 0 ? _mm_shuffle_ps(load(from), load(from + 4), 0x88) : _mm_shuffle_ps(load(from), load(from + 4), 0xDD);
+        } else if constexpr (Channel::whole_codes) {
+            const auto* const codes = from + c;
+            return numbers(_mm_setr_epi32(codes[0], codes[Channels], codes[2 * Channels], codes[3 * Channels]));
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }

@@ -158,6 +158,9 @@ struct wasm128 {
         } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
             const ints low = wasm_v128_load(from), high = wasm_v128_load(from + 4);
             return floats_of(c == 0 ? wasm_i32x4_shuffle(low, high, 0, 2, 4, 6) : wasm_i32x4_shuffle(low, high, 1, 3, 5, 7));
+        } else if constexpr (Channel::whole_codes) {
+            const auto* const codes = from + c;
+            return number(wasm_u32x4_make(codes[0], codes[Channels], codes[2 * Channels], codes[3 * Channels]));
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }

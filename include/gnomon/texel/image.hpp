@@ -40,6 +40,8 @@ template <typename T> class strided_span {
     }
 
     [[nodiscard]] constexpr int size() const noexcept { return size_; }
+    /// From an element to the next, in bytes.
+    [[nodiscard]] constexpr std::ptrdiff_t stride() const noexcept { return stride_; }
     /// Do the elements lie side by side?
     [[nodiscard]] constexpr bool contiguous() const noexcept { return stride_ == static_cast<std::ptrdiff_t>(sizeof(T)); }
     [[nodiscard]] constexpr T& operator[](int i) const noexcept {

@@ -1,0 +1,46 @@
+// gnomon: soft shadow maps. What lanes know. The rest goes by the scalar loops, to the same results.
+#pragma once
+
+#include <gnomon/receive/decide.hpp>
+#include <gnomon/texel/image.hpp>
+
+#include <concepts>
+#include <cstddef>
+
+namespace gnomon::inline GNOMON_BUILD::detail {
+
+/// Lanes read and write these; a channel of a user's goes by the scalar loops.
+template <typename Channel>
+concept channel_of_lanes = std::same_as<Channel, unorm8> || std::same_as<Channel, unorm16> || std::same_as<Channel, half16> ||
+                           std::same_as<Channel, float32>;
+
+/// Premultiplied pairs that no receiver bounds, with a contribution or without.
+template <texel_format Texel>
+inline constexpr bool decidable_pairs = !Texel::effects.far_bound && std::same_as<typename Texel::representation_type, depth_mask>;
+
+/// Pairs of two numbers of a channel; and of two bytes.
+template <texel_format Texel, typename Channel>
+inline constexpr bool pairs_of =
+    decidable_pairs<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, Channel>;
+template <texel_format Texel> inline constexpr bool byte_pairs = pairs_of<Texel, unorm8>;
+
+/// What lanes decide: whole codes, with a contribution too; of half and float pairs with float intensities.
+template <texel_format Texel, typename Intensity>
+inline constexpr bool decided_in_lanes =
+    channel_of_lanes<typename Texel::channel_type> && decidable_pairs<Texel> &&
+    (Texel::channel_type::whole_codes || (Texel::channels == 2 && std::same_as<Intensity, float>));
+
+/// What lanes blend from four texels and decide.
+template <texel_format Texel> inline constexpr bool blended_in_lanes = byte_pairs<Texel> || pairs_of<Texel, unorm16>;
+
+/// Do lanes blend on a map, for a rule? Offsets are of 32 bits, a row has two texels for a load, and so many roundings move a pair by less
+/// than floats have room for.
+template <texel_format Texel> [[nodiscard]] bool blended_on(image_view<const Texel> map, const rule& r) noexcept {
+    constexpr int most = 1 << 21, most_roundings = 128;
+    constexpr int bytes = static_cast<int>(sizeof(Texel));
+    const std::ptrdiff_t row = map.stride() < 0 ? -map.stride() : map.stride();
+    return r.caster.roundings <= most_roundings && map.width() >= 2 && map.height() >= 2 && map.width() <= most &&
+           map.height() <= most && row <= (0x7FFFFFFF - bytes * map.width()) / map.height();
+}
+
+} // namespace gnomon::inline GNOMON_BUILD::detail
