@@ -136,6 +136,12 @@ TEST_CASE("a filter into its own image or with a scratch of no room is a wrong c
     simd<>{}.filter_region(before.view(), wide.view(), {0, 0, 64, 2}, none_either);
     CHECK(complaint() == room);
     CHECK(test::differences(before, wide) == 0);
+    const image<gnomon::rg32f> floats({64, 20}, gnomon::rg32f::caster(0.5f)); // whose sums would run without one
+    image<gnomon::rg32f> untouched(floats.size(), gnomon::rg32f::clear());
+    filter_scratch<gnomon::rg32f, box<8>> nor_here;
+    simd<>{}.filter_region(floats.view(), untouched.view(), whole(floats.size()), nor_here);
+    CHECK(complaint() == room);
+    CHECK(test::differences(untouched, image<gnomon::rg32f>(floats.size(), gnomon::rg32f::clear())) == 0);
 }
 
 TEST_CASE("lanes that the processor has not are a wrong call, and the oracle's call then") {

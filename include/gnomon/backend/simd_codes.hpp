@@ -146,9 +146,10 @@ template <typename Isa, texel_format Texel, typename Intensity> struct word_deci
         if constexpr (sizeof(Intensity) == 1) {
             ints more;
             if (!shade(by, texels + 2 * at_once, depths + at_once, more)) return false;
-            shades = Isa::narrow16(shades, more);
+            Isa::store(to, Isa::narrow16(shades, more));
+        } else {
+            Isa::store(to, shades);
         }
-        Isa::store(to, shades);
         return true;
     }
     static void slow(const any_decision& by, const Texel* texels, const std::uint16_t* depths, Intensity* to) noexcept {
