@@ -3,6 +3,7 @@
 // Names are WHAT/FORMAT/SIZE, SIZE the side of the map, FORMAT the texel and the depth: u8x2.z16 is pairs of bytes, depths of 16 bits
 // and intensities of 8. All run in one process.
 //     scalar, simd, simd.avx2, simd.sse2     one receiver a texel, in rows
+//     fields, fields.avx2, fields.scalar     the same as fields of structures, 12 bytes apart
 //     copy                                   the floor: memcpy that moves as many bytes
 //     points, points.avx2, points.scalar     one receiver a texel at positions of its own, side by side but turned a little
 //     gather, gather.avx2                    the floor of these: two gathers of 32 bits and a store
@@ -18,6 +19,7 @@
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 #if GNOMON_X86
 #include <immintrin.h>
 #endif
@@ -77,6 +79,29 @@ void add_ours(const char* what, const char* format, int size) {
         auto intensity = make_row<Intensity>(size);
         floors::measure(state, [&] { receive(Backend{}, row_of(from.texels), row_of(from.z), row_of(intensity)); });
     });
+}
+
+template <typename Backend> void add_fields(const char* what, int size) {
+    struct receiver {
+        rg8 texel;
+        std::uint16_t other;
+        float z, intensity;
+    };
+    add(what, "u8x2.f32", size, square(size) * sizeof(receiver), [size](benchmark::State& state) {
+        const scene<rg8, float> from({size * size, 1});
+        std::vector<receiver> all(square(size));
+        for (int i = 0; i < size * size; ++i) all[static_cast<std::size_t>(i)] = {from.texels(i, 0), 0, from.z(i, 0), 0.0f};
+        const auto field = [&all](auto& first) { return strided_span(&first, static_cast<int>(all.size()), sizeof(receiver)); };
+        floors::measure(state, [&] { receive(Backend{}, field(all[0].texel), field(all[0].z), field(all[0].intensity)); });
+    });
+}
+
+void add_all_fields(int size) {
+    add_fields<scalar>("fields.scalar", size);
+    add_fields<simd<>>("fields", size);
+#if GNOMON_X86
+    if (best_lanes() >= cpu_level::avx2) add_fields<simd<avx2>>("fields.avx2", size);
+#endif
 }
 
 template <typename Texel, typename Depth, typename Intensity> void add_format(const char* format) {
@@ -227,10 +252,12 @@ void add_opencv(int) {}
 int main(int count, char** words) {
     add_format<rg8, std::uint16_t, std::uint8_t>("u8x2.z16");
     add_format<rg8, float, float>("u8x2.f32");
+    add_format<rga8, float, float>("u8x3.f32");
     add_format<rg16, std::uint16_t, std::uint16_t>("u16x2.z16");
     add_format<rg16, float, float>("u16x2.f32");
     add_format<rg32f, float, float>("f32x2.f32");
     for (const int size : {128, 1024, 4096}) {
+        add_all_fields(size);
         add_all_points(size);
         add_opencv(size);
     }

@@ -70,6 +70,10 @@ def receives(path):
         if what in ("points", "points.avx2") and (floor := time.get(f"gather{what.removeprefix('points')}/{of}/{size}")):
             where = "" if size == "1024" else "_" + WHERE[size]
             ratios[f"receive.bilinear.{of.removesuffix('.f32')}.of_gather{where}{what.removeprefix('points')}"] = floor / of_lanes
+        if what in ("fields", "fields.avx2"):
+            suffix = what.removeprefix("fields")
+            ratios[f"receive.fields.{of}.vs_scalar_{WHERE[size]}{suffix}"] = time[f"fields.scalar/{of}/{size}"] / of_lanes
+            ratios[f"receive.fields.{of}.over_rows_{WHERE[size]}{suffix}"] = of_lanes / time[f"simd{suffix}/{of}/{size}"]
         if what not in ("simd", "simd.avx2", "simd.sse2"):
             continue
         suffix = what.removeprefix("simd")
