@@ -27,6 +27,8 @@ using gnomon::extent;
 using gnomon::image;
 using gnomon::image_view;
 using gnomon::rg16;
+using gnomon::rg16f;
+using gnomon::rg32f;
 using gnomon::rg8;
 using gnomon::rule;
 using gnomon::simd;
@@ -85,8 +87,8 @@ template <typename Depth> const std::vector<Depth>& depths_of(const points& p) {
 }
 } // namespace
 
-TEST_CASE_TEMPLATE("receivers anywhere are decided in lanes as by the oracle: any position, map, rule and depth", Texel, rg8,
-                   rg16) {
+TEST_CASE_TEMPLATE("receivers anywhere are decided in lanes as by the oracle: any position, map, rule and depth", Texel, rg8, rg16,
+                   rg16f, rg32f) {
     dice roll(431);
     for (const extent size : {extent{23, 17}, {2, 2}, {1, 9}, {9, 1}, {300, 3}, {0, 0}}) {
         image<Texel> map = test::noise<Texel>(roll, size, 2);
@@ -116,13 +118,12 @@ TEST_CASE_TEMPLATE("receivers anywhere are decided in lanes as by the oracle: an
 }
 
 TEST_CASE_TEMPLATE("receivers anywhere are decided exactly where a shadow begins, however many roundings their bias makes up for",
-                   Texel, rg8, rg16) {
+                   Texel, rg8, rg16, rg16f, rg32f) {
     dice roll(436);
     image<Texel> map = test::noise<Texel>(roll, {40, 30}, 2);
     test::for_each_texel({0, 0, 20, 30}, [&](int x, int y) { // masks near the full one are what a bias moves beyond 2^24
-        constexpr int last = static_cast<int>(Texel::channel_type::scale);
-        const int mask = last - roll(0, last / 5);
-        map(x, y) = {{static_cast<typename Texel::storage>(roll(0, mask)), static_cast<typename Texel::storage>(mask)}};
+        const double mask = 1.0 - static_cast<double>(roll.unit()) / 5.0, depth = static_cast<double>(roll.unit()) * mask;
+        map(x, y) = {{Texel::channel_type::encode(depth), Texel::channel_type::encode(mask)}};
     });
     for (const int roundings : {0, 1, 2, 3, 127, 128})
         for (const auto towards : {gnomon::bias_towards::light, gnomon::bias_towards::none, gnomon::bias_towards::shadow}) {
@@ -153,7 +154,7 @@ TEST_CASE_TEMPLATE("receivers anywhere are decided exactly where a shadow begins
 }
 
 TEST_CASE_TEMPLATE("every position within a texel and its neighbours, to 1/512, gives the oracle's blend, at the border too", Texel,
-                   rg8, rg16) {
+                   rg8, rg16, rg16f, rg32f) {
     dice roll(432);
     const image<Texel> map = test::noise<Texel>(roll, {3, 2}, 2);
     points p;
@@ -199,7 +200,7 @@ TEST_CASE_TEMPLATE(
 
 TEST_CASE_TEMPLATE(
     "receivers anywhere: every width to 67 and some beyond, any stride, in place, and on a map whose rows go upwards", Texel, rg8,
-    rg16) {
+    rg16, rg16f, rg32f) {
     dice roll(433);
     const image<Texel> map = test::noise<Texel>(roll, {40, 30}, 2);
     const image_view<const Texel> upwards(map.view().row(29), {40, 30}, -map.view().stride());
@@ -329,6 +330,35 @@ TEST_CASE("a blend is decided by floats but near nothing: words within a 16th of
     }
 }
 
+TEST_CASE_TEMPLATE("a blend of half and float is decided in lanes, for float intensities, unless it is none", Texel, rg16f, rg32f) {
+    static_assert(gnomon::detail::blended_in_lanes<Texel, float> && !gnomon::detail::blended_in_lanes<Texel, std::uint8_t>);
+    using blending = gnomon::on_any::number_blend<lanes, Texel, float>;
+    const auto by = blending::moving::template of<Texel, float>({});
+    const std::array z{0.25f, 0.75f, 0.25f, 0.75f};
+    lanes::masks shadowed{};
+    CHECK(blending::decided(by, {lanes::repeat(0.25f), lanes::repeat(0.5f)}, z.data(), shadowed));
+    std::array<float, 4> made{};
+    lanes::store(made.data(), lanes::keep(shadowed, lanes::repeat(1.0f)));
+    CHECK(made == std::array{0.0f, 1.0f, 0.0f, 1.0f});
+    CHECK_FALSE(blending::decided(by, {lanes::repeat(test::nan<float>), lanes::repeat(0.5f)}, z.data(), shadowed));
+    CHECK_FALSE(blending::decided(by, {lanes::repeat(0.25f), lanes::repeat(test::nan<float>)}, z.data(), shadowed));
+}
+
+TEST_CASE("a blend of floats is summed in the oracle's order, which shows where a sum lies between two floats") {
+    image<rg32f> map({2, 2}, rg32f::clear());
+    map(0, 0) = {{0.0f, 1.0f}};
+    map(1, 0) = {{0.0f, 0x1p-24f}};               // half of a place more
+    map(0, 1) = map(1, 1) = {{0.0f, 0x1.8p-54f}}; // each too little to count, both together not
+    const std::vector<float> middle(16, 1.0f), deep(16, 2.0f);
+    std::vector<float> made(16);
+    for_each_isa([&]<typename Isa>() {
+        gnomon::receive(simd<Isa>{}, map.view(), middle, middle, deep, made);
+        CHECK(made == std::vector<float>(16, 0.25f));
+    });
+    gnomon::receive(map.view(), middle, middle, deep, made);
+    CHECK(made == std::vector<float>(16, 0.25f));
+}
+
 TEST_CASE("results of receivers anywhere are called for ahead of time, each register's once") {
     const image<rg8> map({4, 4}, rg8::caster(0.5f));
     const std::vector<float> where(40, 1.5f);
@@ -357,7 +387,7 @@ TEST_CASE("receivers anywhere: the shortest span counts in lanes too") {
     }
 }
 
-TEST_CASE_TEMPLATE("lanes read nothing beside the map: its memory ends where its last texel does", Texel, rg8, rg16) {
+TEST_CASE_TEMPLATE("lanes read nothing beside the map: its memory ends where its last texel does", Texel, rg8, rg16, rg16f, rg32f) {
     dice roll(434);
     for (const extent size : {extent{2, 2}, {5, 3}, {64, 2}, {2, 9}}) { // the address sanitizer watches; so do the bits, without it
         const auto memory = std::make_unique<Texel[]>(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));

@@ -31,7 +31,8 @@ inline constexpr bool decided_in_lanes =
     (Texel::channel_type::whole_codes || (Texel::channels == 2 && std::same_as<Intensity, float>));
 
 /// What lanes blend from four texels and decide.
-template <texel_format Texel> inline constexpr bool blended_in_lanes = byte_pairs<Texel> || pairs_of<Texel, unorm16>;
+template <texel_format Texel, typename Intensity>
+inline constexpr bool blended_in_lanes = decided_in_lanes<Texel, Intensity> && Texel::channels == 2;
 
 /// Do lanes blend on a map, for a rule? Offsets are of 32 bits, a row has two texels for a load, and so many roundings move a pair by less
 /// than floats have room for.

@@ -135,23 +135,29 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                 to, Isa::keep(shadowed, Isa::multiply(Isa::add(darkness, Isa::repeat(128.5f)), Isa::repeat(1.0f / 257.0f))));
     }
 
-    /// False, and nothing stored, if lanes do not tell.
-    GNOMON_LANES bool one(const decision& by, const storage* texels, const Depth* depths, Intensity* to) noexcept {
-        const floats mask = codes(texels, Texel::mask_index);
-        const floats e = moved(Isa::subtract(codes(texels, Texel::depth_index), by.depth_less), by.depth_share);
+    /// Who is shadowed, of codes as they are stored, or of a blend of them in float. False if lanes do not tell.
+    GNOMON_LANES bool decided(const decision& by, const floats& depth, const floats& mask, const Depth* depths,
+                              masks& shadowed) noexcept {
+        const floats e = moved(Isa::subtract(depth, by.depth_less), by.depth_share);
         const floats m = moved(Isa::add(mask, by.mask_more), by.mask_share);
         const masks there = Isa::greater(mask, Isa::repeat(0.0f));
-        masks shadowed;
         if constexpr (std::same_as<Depth, std::uint16_t>) {
-            if (!decided_sums(by, e, m, there, depths, shadowed)) return false;
+            return decided_sums(by, e, m, there, depths, shadowed);
         } else if constexpr (whole_codes) {
             shadowed = decided_codes(by, e, m, depths);
             if constexpr (Texel::effects.translucency) { // else the mask is stored, and is 0 there
                 shadowed = Isa::both(shadowed, there);
             }
+            return true;
         } else {
-            if (!decided_floats(by, e, m, there, depths, shadowed)) return false;
+            return decided_floats(by, e, m, there, depths, shadowed);
         }
+    }
+    /// False, and nothing stored, if lanes do not tell.
+    GNOMON_LANES bool one(const decision& by, const storage* texels, const Depth* depths, Intensity* to) noexcept {
+        const floats mask = codes(texels, Texel::mask_index);
+        masks shadowed;
+        if (!decided(by, codes(texels, Texel::depth_index), mask, depths, shadowed)) return false;
         if constexpr (Texel::effects.translucency)
             store(to, shadowed, codes(texels, Texel::contribution_index));
         else

@@ -15,7 +15,8 @@ namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
 /// Receivers anywhere on a map of pairs, a register at a time.
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct blended_decision {
-    using blending = std::conditional_t<detail::byte_pairs<Texel>, byte_blend<Isa, Texel>, word_blend<Isa, Texel>>;
+    using whole_codes = std::conditional_t<detail::byte_pairs<Texel>, byte_blend<Isa, Texel>, word_blend<Isa, Texel>>;
+    using blending = std::conditional_t<Texel::channel_type::whole_codes, whole_codes, number_blend<Isa, Texel, Depth>>;
     using ints = typename Isa::ints;
     using floats = typename Isa::floats;
     using masks = typename Isa::masks;
@@ -43,7 +44,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     ints last_column, last_row, stride; ///< the last texel that has a next one, and bytes from row to row
     std::ptrdiff_t next_row;            ///< in bytes
     floats right, bottom;               ///< left of and above these lie texels that have a next one
-    blend_rule<Isa> by_rule;
+    typename blending::moving by_rule;
 
     [[nodiscard]] static blended_decision of(image_view<const Texel> map, const rule& r) noexcept {
         const auto word = [](int n) { return static_cast<std::uint32_t>(n); };
@@ -54,7 +55,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                 map.stride(),
                 Isa::repeat(static_cast<float>(map.width() - 1)),
                 Isa::repeat(static_cast<float>(map.height() - 1)),
-                blend_rule<Isa>::template of<Texel, Depth>(r)};
+                blending::moving::template of<Texel, Depth>(r)};
     }
 
     /// A position in 1/256 texel right of the centre of texel 0, floor(256 x + 1/2) - 128 as `sample` has it. 256 x is exact, and what
@@ -80,7 +81,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     }
 
     GNOMON_LANES_VOID void note(const blended_decision& by, const taps& across, const taps& down, work& w, int i) noexcept {
-        constexpr int doublings = sizeof(Texel) == 2 ? 1 : 2;
+        constexpr int doublings = sizeof(Texel) == 8 ? 3 : static_cast<int>(sizeof(Texel)) / 2;
         Isa::store(w.at + i,
                    Isa::add32(Isa::multiply32(down.texel, by.stride), Isa::template shift_left32<doublings>(across.texel)));
         Isa::store(w.across + i, Isa::either(across.here, Isa::template shift_left32<16>(across.next)));
