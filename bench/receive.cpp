@@ -6,7 +6,7 @@
 //     fields, fields.avx2, fields.scalar     the same as fields of structures, 12 bytes apart
 //     copy                                   the floor: memcpy that moves as many bytes
 //     points, points.avx2, points.scalar     one receiver a texel at positions of its own, side by side but turned a little
-//     gather, gather.avx2                    the floor of these: two gathers of 32 bits and a store
+//     gather, gather.avx2                    the floor of these on bytes: two gathers of 32 bits and a store
 //     opencv.copied, opencv.multiplied       operations on planes in one thread, if CMake found OpenCV, of which the quicker counts
 #include "floors.hpp"
 
@@ -131,9 +131,9 @@ struct turned {
     }
 };
 
-template <typename Backend> void add_points(const char* what, int size) {
-    add(what, "u8x2.f32", size, square(size) * 16, [size](benchmark::State& state) {
-        const scene<rg8, float> from({size, size});
+template <typename Backend, typename Texel> void add_points(const char* what, const char* format, int size) {
+    add(what, format, size, square(size) * 16, [size](benchmark::State& state) {
+        const scene<Texel, float> from({size, size});
         const turned at(size);
         auto intensity = make_row<float>(size);
         floors::measure(
@@ -190,12 +190,19 @@ void gather_twice_avx512(const char* map, std::ptrdiff_t row, const offsets& whe
 GNOMON_TARGET_END
 #endif
 
+template <typename Texel> void add_points_of(const char* format, int size) {
+    add_points<scalar, Texel>("points.scalar", format, size);
+    add_points<simd<>, Texel>("points", format, size);
+#if GNOMON_X86
+    if (best_lanes() >= cpu_level::avx2) add_points<simd<avx2>, Texel>("points.avx2", format, size);
+#endif
+}
+
 void add_all_points(int size) {
-    add_points<scalar>("points.scalar", size);
-    add_points<simd<>>("points", size);
+    add_points_of<rg8>("u8x2.f32", size);
+    add_points_of<rg32f>("f32x2.f32", size);
 #if GNOMON_X86
     if (best_lanes() < cpu_level::avx2) return;
-    add_points<simd<avx2>>("points.avx2", size);
     add_gathers("gather.avx2", size, gather_twice_avx2);
     if (best_lanes() >= cpu_level::avx512)
         add_gathers("gather", size, gather_twice_avx512);

@@ -70,6 +70,8 @@ def receives(path):
         if what in ("points", "points.avx2") and (floor := time.get(f"gather{what.removeprefix('points')}/{of}/{size}")):
             where = "" if size == "1024" else "_" + WHERE[size]
             ratios[f"receive.bilinear.{of.removesuffix('.f32')}.of_gather{where}{what.removeprefix('points')}"] = floor / of_lanes
+        if what in ("points", "points.avx2") and (theirs := time.get(f"points.scalar/{of}/{size}")):
+            ratios[f"receive.points.{of}.vs_scalar_{WHERE[size]}{what.removeprefix('points')}"] = theirs / of_lanes
         if what in ("fields", "fields.avx2"):
             suffix = what.removeprefix("fields")
             ratios[f"receive.fields.{of}.vs_scalar_{WHERE[size]}{suffix}"] = time[f"fields.scalar/{of}/{size}"] / of_lanes

@@ -45,7 +45,7 @@ TEST_CASE_TEMPLATE(
     rules.push_back({.caster = {.caster_is_code = true}});
     for_each_isa([&]<typename Isa>() {
         int wrong = 0, dark = 0;
-        for (int count = 0; count < 600; count += count < 67 ? 1 : 63) // copied by 256
+        for (int count = 0; count < 600; count += count < 67 ? 1 : 63) // copied by 64
             for (const auto& [of_texels, of_z, of_intensity] : {std::array{1, 1, 1}, {3, 1, 1}, {1, 3, 1}, {1, 1, 2}, {2, 3, 2}}) {
                 const auto size = static_cast<std::size_t>(3 * count + 1);
                 std::vector<Texel> texels(size);
@@ -223,6 +223,45 @@ TEST_CASE_TEMPLATE("lanes tell of what is ordinary, and leave it to no loop of t
         using by = gnomon::on_any::decision<gnomon::emulated<32>, Texel, std::uint16_t, float>;
         CHECK(by::one(by::of(r), casters[0].stored, behind_all.data(), made.data())); // moved beyond the range by some
     }
+}
+
+TEST_CASE_TEMPLATE(
+    "lanes decide against depths in codes as the oracle does, however many roundings there were, of masks that their "
+    "bias moves below nothing too, which are no loop's",
+    Texel, rg8, gnomon::rg16, gnomon::rga8) {
+    dice roll(408);
+    for (const int roundings : {0, 1, 2, 4, 128, 1000})
+        for (const auto towards : {gnomon::bias_towards::light, gnomon::bias_towards::none, gnomon::bias_towards::shadow}) {
+            const gnomon::rule r{.caster = {.towards = towards, .roundings = roundings}};
+            std::vector<Texel> texels(3000);
+            std::vector<std::uint16_t> z(texels.size());
+            for (std::size_t i = 0; i < texels.size(); ++i) {
+                texels[i] = test::any_caster<Texel>(roll);
+                if (roll.one_in(2)) texels[i].stored[1] = static_cast<typename Texel::storage>(roll(0, 3));
+                if (texels[i].stored[0] > texels[i].stored[1]) texels[i].stored[0] = texels[i].stored[1];
+                const float begins = gnomon::lesser(test::first_shadowed(texels[i], r), 1.0f); // one of them to a register at most
+                z[i] =
+                    static_cast<std::uint16_t>(i % 64 == 0 ? gnomon::unorm16::encode(static_cast<double>(begins)) : roll(0, 65535));
+            }
+            const auto as_the_oracle = [&]<typename Intensity>(Intensity) {
+                std::vector<Intensity> expected(z.size()), made(z.size());
+                gnomon::receive(texels, z, expected, r);
+                for_each_isa([&]<typename Isa>() {
+                    gnomon::receive(simd<Isa>{}, texels, z, made, r);
+                    CHECK(expected == made);
+                });
+            };
+            as_the_oracle(float{});
+            as_the_oracle(std::uint8_t{});
+            as_the_oracle(std::uint16_t{});
+        }
+    using by = gnomon::on_any::decision<gnomon::emulated<32>, Texel, std::uint16_t, float>;
+    std::array<Texel, 8> faint{};
+    for (Texel& texel : faint) texel.stored[1] = 1;
+    const std::array<std::uint16_t, 8> half{0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000};
+    std::array<float, 8> made{};
+    CHECK(by::one(by::of({.caster = {.towards = gnomon::bias_towards::shadow, .roundings = 4}}), faint[0].stored, half.data(),
+                  made.data()));
 }
 
 TEST_CASE("each register of receivers is answered once, by lanes") {

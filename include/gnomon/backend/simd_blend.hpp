@@ -22,7 +22,7 @@ template <typename Isa> struct blend_rule {
     typename Isa::floats e, m, z; ///< what pair and receiver are moved by
     typename Isa::floats before;  ///< a depth in codes there, once moved, is lit
     bool lit_beyond;
-    bool one_rounding; ///< at most
+    bool by_half_a_code; ///< at most, to either side
 
     template <texel_format Texel, typename Depth> [[nodiscard]] static blend_rule of(const rule& r) noexcept {
         const biased<> moved = apply<Texel>(r.caster, 0.0, 0.0, 0.0f);
@@ -32,7 +32,7 @@ template <typename Isa> struct blend_rule {
                 Isa::repeat(std::same_as<Depth, std::uint16_t> ? static_cast<float>(-codes) : moved.z),
                 Isa::repeat(static_cast<float>(greater(0, -codes))),
                 r.lit_beyond,
-                r.caster.roundings <= 1};
+                moved.m <= 0.5 && moved.m >= -0.5};
     }
 };
 
@@ -46,8 +46,7 @@ GNOMON_INLINE bool decided_by_codes(const blend_rule<Isa>& by, typename Isa::flo
     return decided_by_codes<Isa>(m, rest, z, Isa::repeat(doubt), there, shadowed);
 }
 
-/// Pairs of bytes. Both texels of a row come in one load of 32 bits; a blend is below 2^24 and so exact in float, as is all that is
-/// asked of it.
+/// Pairs of bytes. Both texels of a row come in one load of 32 bits; a blend is below 2^24 and so exact in float.
 template <typename Isa, texel_format Texel> struct byte_blend {
     using ints = typename Isa::ints;
     using floats = typename Isa::floats;
@@ -80,13 +79,13 @@ template <typename Isa, texel_format Texel> struct byte_blend {
         return {Isa::add_product(Isa::multiply(e, here), e_next, next), Isa::add_product(Isa::multiply(m, here), m_next, next)};
     }
 
-    /// m z + (e-m) > 0. A bias of one rounding keeps the pair below 2^24, and this exact; one of more below 2^25, so that one of e and
-    /// m, e-m, and m z where it cancels are rounded by 1 each.
+    /// m z + (e-m) > 0. Moved by half a code a pair stays below 2^24, and this is exact; by 64, below 2^25, so that one of e and m, e-m,
+    /// and m z where it cancels are rounded by 1 each.
     GNOMON_LANES bool decided(const blend_rule<Isa>& by, const pair& blended, const float* depths, masks& shadowed) noexcept {
         const floats e = Isa::add(blended.e, by.e), m = Isa::add(blended.m, by.m), rest = Isa::subtract(e, m);
         const floats depth = Isa::load(depths), z = Isa::add(depth, by.z);
         const masks asked = may_be_shadowed<Isa>(Isa::greater(blended.m, Isa::repeat(0.0f)), depth, by.lit_beyond);
-        if (!by.one_rounding) return surely_positive<Isa>(Isa::add_product(rest, m, z), Isa::repeat(doubt), asked, shadowed);
+        if (!by.by_half_a_code) return surely_positive<Isa>(Isa::add_product(rest, m, z), Isa::repeat(doubt), asked, shadowed);
         shadowed = Isa::both(asked, Isa::positive(m, z, rest));
         return true;
     }

@@ -143,14 +143,15 @@ template <typename Isa, texel_format Texel, typename Intensity> struct word_deci
                             Intensity* to) noexcept {
         ints shades;
         if (!shade(by, texels, depths, shades)) return false;
-        if constexpr (sizeof(Intensity) == 1) {
+        if constexpr (sizeof(Intensity) == 2) {
+            Isa::store(to, shades);
+            return true;
+        } else {
             ints more;
             if (!shade(by, texels + 2 * at_once, depths + at_once, more)) return false;
             Isa::store(to, Isa::narrow16(shades, more));
-        } else {
-            Isa::store(to, shades);
+            return true;
         }
-        return true;
     }
     static void slow(const any_decision& by, const Texel* texels, const std::uint16_t* depths, Intensity* to) noexcept {
         any_decision::rows(by, texels, depths, to, step);

@@ -43,8 +43,8 @@ GNOMON_INLINE bool decided_by_codes(const typename Isa::floats& m, const typenam
 ///
 ///     float depths      of unorm nothing; of half and float m <= 2^-50, and z that is moved towards the light by more than the range,
 ///                       or lies within 2^-50 of nothing when it has been moved by less than 2^-26
-///     depths in codes   one receiver in a million, or all that lie exactly where their shadow begins; m <= 0 (in half and float
-///                       <= 2^-50, and in float > 2^100)
+///     depths in codes   one receiver in a million, or all that lie exactly where their shadow begins; in half and float m <= 2^-50,
+///                       and in float m > 2^100
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct decision {
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
@@ -110,14 +110,15 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                !(by.next_to_nothing && Isa::any(Isa::both(Isa::greater(z, zero), Isa::greater(Isa::repeat(0x1p-50f), z))));
     }
     /// m z + (e-m) 65535 > 0, z in codes. Three roundings are wrong by 3 * 2^-24 * 65535 m < m/64 at most where the two cancel; so
-    /// within m/16 of nothing the sum says nothing.
+    /// within m/16 of nothing the sum says nothing. Whole codes m that a bias moves below nothing have e > 0, and a sum far above it.
     GNOMON_LANES bool decided_sums(const decision& by, const floats& e, const floats& m, const masks& there,
                                    const std::uint16_t* depths, masks& shadowed) noexcept {
         const floats z = Isa::subtract(Isa::template codes_of<unorm16, 1>(depths, 0), by.nearer);
         const floats doubt = Isa::multiply(m, Isa::repeat(0.0625f));
         const masks asked = Isa::both(there, Isa::greater(z, by.before));
-        return decided_by_codes<Isa>(m, Isa::subtract(e, m), z, doubt, asked, shadowed) &&
-               !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) &&
+        if (!decided_by_codes<Isa>(m, Isa::subtract(e, m), z, doubt, asked, shadowed)) return false;
+        if constexpr (whole_codes) return true;
+        return !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) &&
                !(std::same_as<channel_type, float32> && Isa::any(Isa::both(asked, Isa::greater(m, Isa::repeat(0x1p100f)))));
     }
 

@@ -137,16 +137,16 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
 void receive_points(image_view<const Texel> map, strided_span<const float> x, strided_span<const float> y,
                     strided_span<const Depth> z, strided_span<Intensity> intensity, const rule& r) noexcept {
     using blended = blended_decision<Isa, Texel, Depth, Intensity>;
-    using part = detail::stretch<blended::step>;
+    using part = detail::stretch<blended::step, 256>;
     const auto by = blended::of(map, r);
     const int count = lesser(lesser(x.size(), y.size()), lesser(z.size(), intensity.size()));
     const bool side_by_side = x.contiguous() && y.contiguous() && z.contiguous() && intensity.contiguous();
-    typename part::template copy<float> px, py;
-    typename part::template copy<Depth> depth;
-    typename part::template copy<Intensity> made;
+    typename part::template buffer<float> px, py;
+    typename part::template buffer<Depth> depth;
+    typename part::template buffer<Intensity> made;
     for (int i = 0; i < count;) {
         const part now(i, count, side_by_side);
-        blended::some(by, map, now.of(x, px), now.of(y, py), now.of(z, depth), now.to(intensity, made), now.rounded(), r);
+        blended::some(by, map, now.of(x, px), now.of(y, py), now.of(z, depth), now.to(intensity, made), now.filled(), r);
         now.put(intensity, made);
         i += now.count;
     }

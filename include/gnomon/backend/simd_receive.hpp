@@ -34,16 +34,16 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
 void receive_row(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
                  const rule& r) noexcept {
     using one = decision_for<Isa, Texel, Depth, Intensity>;
-    using part = detail::stretch<one::step>;
+    using part = detail::stretch<one::step, 64>;
     const auto decide = one::of(r);
     const int count = lesser(texels.size(), lesser(z.size(), intensity.size()));
     const bool side_by_side = texels.contiguous() && z.contiguous() && intensity.contiguous();
-    typename part::template copy<Texel> texel;
-    typename part::template copy<Depth> depth;
-    typename part::template copy<Intensity> made;
+    typename part::template buffer<Texel> texel;
+    typename part::template buffer<Depth> depth;
+    typename part::template buffer<Intensity> made;
     for (int i = 0; i < count;) {
         const part now(i, count, side_by_side);
-        one::rows(decide, now.of(texels, texel), now.of(z, depth), now.to(intensity, made), now.rounded());
+        one::rows(decide, now.of(texels, texel), now.of(z, depth), now.to(intensity, made), now.filled());
         now.put(intensity, made);
         i += now.count;
     }

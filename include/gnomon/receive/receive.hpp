@@ -41,8 +41,8 @@ namespace detail {
 ///     receive(texels, z, intensity);
 ///
 /// A row, a column, or a field of an array of structures: any stride that keeps the elements aligned. Nothing is allocated. In place
-/// too: where element i of the result lies within texel i or depth i, or apart from all that is read after it. \pre No other overlap:
-/// lanes read several receivers before they write the first.
+/// too: where element i of the result lies within texel i or depth i and no later one, or apart from all that is read after it. \pre No
+/// other overlap: lanes read hundreds of receivers before they write the first.
 template <texel_row Row, depth_row Depths, intensity_row Intensities>
 void receive(const Row& texels, const Depths& z, Intensities&& intensity, const rule& r = {}) noexcept {
     const strided_span row(texels);
@@ -62,7 +62,7 @@ void receive(image_view<T> map, image_view<Z> z, image_view<Intensity> intensity
 }
 
 /// Receivers anywhere: at (x[i], y[i]) in texels, blended from four. Off the map is lit. The shortest span counts. In place too, where
-/// element i of the result lies within x[i], y[i] or z[i]. \pre No other overlap, the map's texels included.
+/// element i of the result lies within x[i], y[i] or z[i] and no later one. \pre No other overlap, the map's texels included.
 template <typename T, depth_row Depths, intensity_row Intensities>
     requires texel_format<std::remove_const_t<T>>
 void receive(image_view<T> map, strided_span<const float> x, strided_span<const float> y, const Depths& z, Intensities&& intensity,
