@@ -110,7 +110,7 @@ template <typename Isa, typename F> bool in_lanes(F&& f) noexcept {
 } // namespace detail
 
 /// `receive` in lanes: those of the processor, reconstruct(texels, z, intensity), or named ones, reconstruct<avx2>(...). The same bits, but
-/// for float pairs of e <= -2^24 m, which no caster is, before receivers beyond 2^24. Rows of any stride, in place too, as in
+/// for half and float pairs of e <= -2^24 m, which no caster is, before receivers beyond 2^24. Rows of any stride, in place too, as in
 /// receive/receive.hpp.
 ///
 /// In lanes go depth_mask pairs: unorm8 and unorm16, with a contribution too, with depths and intensities of any kind; half and float,
