@@ -336,7 +336,8 @@ TEST_CASE("a blend is decided by floats but near nothing: words within a 16th of
 TEST_CASE_TEMPLATE("a blend of half and float is decided in lanes, for float intensities, unless it is none", Texel, rg16f, rg32f) {
     static_assert(gnomon::detail::blended_in_lanes<Texel, float> && !gnomon::detail::blended_in_lanes<Texel, std::uint8_t>);
     using blending = gnomon::on_any::number_blend<lanes, Texel, float>;
-    const auto by = blending::moving::template of<Texel, float>({});
+    const rule plain; // which a decision only points to
+    const auto by = blending::moving::template of<Texel, float>(plain);
     const std::array z{0.25f, 0.75f, 0.25f, 0.75f};
     lanes::masks shadowed{};
     CHECK(blending::decided(by, {lanes::repeat(0.25f), lanes::repeat(0.5f)}, z.data(), shadowed));
