@@ -81,7 +81,7 @@ void add_ours(const char* what, const char* format, int size) {
     });
 }
 
-template <typename Backend> void add_fields(const char* what, int size) {
+template <typename Backend> void add_fields(const std::string& what, int size) {
     struct receiver {
         rg8 texel;
         std::uint16_t other;
@@ -94,14 +94,6 @@ template <typename Backend> void add_fields(const char* what, int size) {
         const auto field = [&all](auto& first) { return strided_span(&first, static_cast<int>(all.size()), sizeof(receiver)); };
         floors::measure(state, [&] { receive(Backend{}, field(all[0].texel), field(all[0].z), field(all[0].intensity)); });
     });
-}
-
-void add_all_fields(int size) {
-    add_fields<scalar>("fields.scalar", size);
-    add_fields<simd<>>("fields", size);
-#if GNOMON_X86
-    if (best_lanes() >= cpu_level::avx2) add_fields<simd<avx2>>("fields.avx2", size);
-#endif
 }
 
 template <typename Texel, typename Depth, typename Intensity> void add_format(const char* format) {
@@ -131,7 +123,7 @@ struct turned {
     }
 };
 
-template <typename Backend, typename Texel> void add_points(const char* what, const char* format, int size) {
+template <typename Backend, typename Texel> void add_points(const std::string& what, const char* format, int size) {
     add(what, format, size, square(size) * 16, [size](benchmark::State& state) {
         const scene<Texel, float> from({size, size});
         const turned at(size);
@@ -190,17 +182,21 @@ void gather_twice_avx512(const char* map, std::ptrdiff_t row, const offsets& whe
 GNOMON_TARGET_END
 #endif
 
-template <typename Texel> void add_points_of(const char* format, int size) {
-    add_points<scalar, Texel>("points.scalar", format, size);
-    add_points<simd<>, Texel>("points", format, size);
+/// What is measured in the scalar loop, in the best lanes and in those of AVX2.
+void add_all_places(int size) {
+    const auto add_each = [size]<typename Backend>(Backend, const std::string& suffix) {
+        add_fields<Backend>("fields" + suffix, size);
+        add_points<Backend, rg8>("points" + suffix, "u8x2.f32", size);
+        add_points<Backend, rg32f>("points" + suffix, "f32x2.f32", size);
+    };
+    add_each(scalar{}, ".scalar");
+    add_each(simd<>{}, "");
 #if GNOMON_X86
-    if (best_lanes() >= cpu_level::avx2) add_points<simd<avx2>, Texel>("points.avx2", format, size);
+    if (best_lanes() >= cpu_level::avx2) add_each(simd<avx2>{}, ".avx2");
 #endif
 }
 
-void add_all_points(int size) {
-    add_points_of<rg8>("u8x2.f32", size);
-    add_points_of<rg32f>("f32x2.f32", size);
+void add_all_gathers([[maybe_unused]] int size) {
 #if GNOMON_X86
     if (best_lanes() < cpu_level::avx2) return;
     add_gathers("gather.avx2", size, gather_twice_avx2);
@@ -264,8 +260,8 @@ int main(int count, char** words) {
     add_format<rg16, float, float>("u16x2.f32");
     add_format<rg32f, float, float>("f32x2.f32");
     for (const int size : {128, 1024, 4096}) {
-        add_all_fields(size);
-        add_all_points(size);
+        add_all_places(size);
+        add_all_gathers(size);
         add_opencv(size);
     }
     benchmark::Initialize(&count, words);

@@ -67,18 +67,17 @@ def receives(path):
     time, ratios = medians(path), {}
     for name, of_lanes in time.items():
         what, of, size = name.split("/")
-        if what in ("points", "points.avx2") and (floor := time.get(f"gather{what.removeprefix('points')}/{of}/{size}")):
+        base, dot, lanes = what.partition(".")
+        suffix, theirs = dot + lanes, time.get(f"{base}.scalar/{of}/{size}")
+        if base in ("points", "fields") and lanes != "scalar" and theirs:
+            ratios[f"receive.{base}.{of}.vs_scalar_{WHERE[size]}{suffix}"] = theirs / of_lanes
+        if base == "points" and (floor := time.get(f"gather{suffix}/{of}/{size}")):
             where = "" if size == "1024" else "_" + WHERE[size]
-            ratios[f"receive.bilinear.{of.removesuffix('.f32')}.of_gather{where}{what.removeprefix('points')}"] = floor / of_lanes
-        if what in ("points", "points.avx2") and (theirs := time.get(f"points.scalar/{of}/{size}")):
-            ratios[f"receive.points.{of}.vs_scalar_{WHERE[size]}{what.removeprefix('points')}"] = theirs / of_lanes
-        if what in ("fields", "fields.avx2"):
-            suffix = what.removeprefix("fields")
-            ratios[f"receive.fields.{of}.vs_scalar_{WHERE[size]}{suffix}"] = time[f"fields.scalar/{of}/{size}"] / of_lanes
-            ratios[f"receive.fields.{of}.over_rows_{WHERE[size]}{suffix}"] = of_lanes / time[f"simd{suffix}/{of}/{size}"]
+            ratios[f"receive.bilinear.{of.removesuffix('.f32')}.of_gather{where}{suffix}"] = floor / of_lanes
+        if base == "fields" and (rows := time.get(f"simd{suffix}/{of}/{size}")):
+            ratios[f"receive.fields.{of}.over_rows_{WHERE[size]}{suffix}"] = of_lanes / rows
         if what not in ("simd", "simd.avx2", "simd.sse2"):
             continue
-        suffix = what.removeprefix("simd")
         for peer, called in (("copy", "of_copy"), ("scalar", "vs_scalar")):
             if theirs := time.get(f"{peer}/{of}/{size}"):
                 ratios[f"receive.{of}.{called}_{WHERE[size]}{suffix}"] = theirs / of_lanes

@@ -6,6 +6,7 @@
 #include <gnomon/receive/receive.hpp>
 #include <gnomon/simd/region.hpp>
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -81,7 +82,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     }
 
     GNOMON_LANES_VOID void note(const blended_decision& by, const taps& across, const taps& down, work& w, int i) noexcept {
-        constexpr int doublings = sizeof(Texel) == 8 ? 3 : static_cast<int>(sizeof(Texel)) / 2;
+        constexpr int doublings = std::countr_zero(sizeof(Texel));
         Isa::store(w.at + i,
                    Isa::add32(Isa::multiply32(down.texel, by.stride), Isa::template shift_left32<doublings>(across.texel)));
         Isa::store(w.across + i, Isa::either(across.here, Isa::template shift_left32<16>(across.next)));
