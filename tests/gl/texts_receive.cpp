@@ -133,7 +133,7 @@ TEST_CASE("gnomon_exceeds compares a product of a blend as if it were not rounde
     CHECK(wrong.report() == "");
 }
 
-TEST_CASE("gnomon_divide is the nearest float, of every code, of blends of bytes, and of what sums of floats are parts of") {
+TEST_CASE("gnomon_divide is the nearest float, of every code, of blends of bytes, and of floats by numbers of 16 bits") {
     test::sweep wrong;
     const auto holds = [&](float a, float b) {
         const float inverse = 1.0f / b;

@@ -18,7 +18,6 @@ struct taps {
     int at(int i) const { return weights[static_cast<std::size_t>(radius + i)]; }
 };
 template <gnomon::kernel K> taps taps_of() {
-    static_assert(gnomon::kernel_is_sound<K>());
     return {K::radius, K::total, {K::weights.begin(), K::weights.end()}};
 }
 

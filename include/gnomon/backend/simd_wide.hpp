@@ -5,7 +5,6 @@
 #include <gnomon/simd/region.hpp>
 
 #include <array>
-#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -103,7 +102,7 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
     static void clear(Number* line, int, int first, int last) noexcept {
         for (int i = first; i < last; ++i) {
             const auto code = Texel::clear().template linear<Number>(i % Texel::channels);
-            line[i] = static_cast<Number>(by::weights_of::total) / by::unit * code;
+            line[i] = static_cast<Number>(by::weights_of::total / by::unit) * code;
         }
     }
 
@@ -188,7 +187,7 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
             return;
         } else if constexpr (channel_type::whole_codes) {
             sum = quotient(sum);
-        } else if constexpr (!by::in_floats || !std::has_single_bit(static_cast<unsigned>(by::weights_of::total))) {
+        } else if constexpr (!by::in_floats) {
             sum = Isa::divide(sum, Isa::repeat(whole));
         }
         if constexpr (by::in_floats && std::same_as<channel_type, half16>) // no zero has a sign; floats lose it as they are stored

@@ -4,6 +4,7 @@
 #include <gnomon/filter/kernel.hpp>
 #include <gnomon/texel/texel.hpp>
 
+#include <bit>
 #include <concepts>
 #include <type_traits>
 
@@ -14,14 +15,14 @@ namespace gnomon::inline GNOMON_BUILD {
 ///     unorm8       weights of eight bits (see eight_bit), and then no error but the one rounding; the kernel as it is if it is a
 ///                  box, if 256 is a multiple of its total, or if it is wider than R = 32
 ///     unorm16      weights of 15 bits, and rounded twice, after the columns and after the row: at most one code off instead of half
-///     half, float  single precision: every product and every sum is rounded, R+2 times a pass
+///     half, float  weights of 24 bits if the total is no power of two, and single precision: every product and every sum is rounded,
+///                  R+2 times a pass
 ///     depth_ratio  in 16 bits weights of ten bits, up to R = 128, and then no error but the two roundings; in 8 bits the kernel as it is
 ///
 /// Weights are within one unit of the kernel's proportions, and these errors are against what such weights give: by those of the kernel
 /// as it is, bytes may come out a code or two otherwise, and 16-bit codes some more. e and m are weighed alike, so no false shadow
-/// comes of it. Everything else that a filter promises still holds, in every bit on every processor: clear stays clear (but for the
-/// paper's pair in half and float by totals that are no power of two, whose clear depth is 1), e <= m, and in unorm a uniform region
-/// stays itself. `filter_roundings` tells bias the rest.
+/// comes of it. Everything else that a filter promises still holds, in every bit on every processor: clear stays clear, e <= m, and in
+/// unorm a uniform region stays itself. `filter_roundings` tells bias the rest.
 template <kernel Kernel> struct fast {
     static_assert(
         !requires { typename Kernel::within; }, "gnomon: fast<narrow<Kernel>>: narrow says how already; take one of the two");
@@ -55,6 +56,12 @@ inline constexpr bool is_box = [] {
     return true;
 }();
 
+/// A kernel by weights of such a total: itself, if that is its own.
+template <kernel Kernel, int Total> using of_total = std::conditional_t<Total == Kernel::total, Kernel, in_units<Kernel, Total>>;
+/// The total that floats weigh by. Its parts and their sums are floats: so one stays one, and nothing is left to divide by.
+template <kernel Kernel>
+inline constexpr int total_in_floats = std::has_single_bit(static_cast<unsigned>(Kernel::total)) ? Kernel::total : 1 << 24;
+
 enum class arithmetic {
     exact,  ///< sums without error, one rounding
     stored, ///< sums without error, rounded to storage after each pass
@@ -81,9 +88,12 @@ struct plan<Texel, Kernel> {
                                                      : arithmetic::exact;
     static constexpr bool bytes = is_unorm8 && !is_ratio && !as_it_is && Kernel::radius <= 32 && 256 % Kernel::total != 0,
                           ratios = is_unorm16 && is_ratio && !as_it_is && Kernel::radius <= 128 && Kernel::total > 1024;
-    using weights_of = std::conditional_t<
-        how == arithmetic::stored, in_units<given, 1 << 15>,
-        std::conditional_t<bytes, in_units<given, 256>, std::conditional_t<ratios, in_units<given, 1024>, given>>>;
+    static constexpr int total = how == arithmetic::stored   ? 1 << 15
+                                 : how == arithmetic::single ? total_in_floats<given>
+                                 : bytes                     ? 256
+                                 : ratios                    ? 1024
+                                                             : given::total;
+    using weights_of = of_total<given, total>;
 };
 
 template <texel_format Texel, kernel Kernel>
@@ -93,7 +103,8 @@ struct plan<Texel, Kernel> {
         Texel::representation_type::premultiplied,
         "gnomon: narrow<Kernel>: a ratio of depth and mask is made from sums of both passes; filter it by the kernel itself");
     static constexpr auto how = Texel::channel_type::whole_codes ? arithmetic::stored : arithmetic::single;
-    using weights_of = typename Kernel::within;
+    using within = typename Kernel::within;
+    using weights_of = of_total<within, how == arithmetic::single ? total_in_floats<within> : within::total>;
 };
 
 } // namespace detail
@@ -104,8 +115,8 @@ inline constexpr int filter_roundings = [] {
     using chosen = detail::plan<Texel, Kernel>;
     if (chosen::how == detail::arithmetic::exact) return 1;
     if (chosen::how == detail::arithmetic::stored) return 2;
-    // Each tap is rounded with the one across, as a product and in at most R sums; then the two passes' weights are divided out.
-    constexpr int roundings = 2 * (Kernel::radius + 2) + 2;
+    // Each tap is rounded with the one across, as a product and in at most R sums.
+    constexpr int roundings = 2 * (Kernel::radius + 2);
     return std::same_as<typename Texel::channel_type, float32>
                ? roundings + 1
                : (detail::is_narrow<Kernel> ? 3 : 2); // of 2^-24 each: in halves less than one

@@ -77,14 +77,14 @@ template <texel_format Texel, kernel Kernel> struct sums {
     using wide = typename Texel::linear_sum;
     static constexpr bool in_floats = chosen::how == arithmetic::single, stored_between = chosen::how == arithmetic::stored;
 
-    /// What weights of floats are divided by, so that the line stays near 1: a power of two, which rounds nothing.
-    static constexpr int unit = in_floats ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(weights_of::total))) : 1;
+    /// What weights are divided by: floats are weighed by parts of one.
+    static constexpr int unit = in_floats ? weights_of::total : 1;
     template <typename Number> [[nodiscard]] static constexpr Number weight(int tap) noexcept {
         return static_cast<Number>(weights_of::weights[static_cast<std::size_t>(tap)]) / static_cast<Number>(unit);
     }
-    /// The weights of both passes; floats are divided by the nearest float.
+    /// The weights of both passes.
     static constexpr wide whole = [] {
-        constexpr auto total = static_cast<wide>(weights_of::total) / static_cast<wide>(unit);
+        constexpr auto total = static_cast<wide>(weights_of::total / unit);
         return stored_between ? total : total * total;
     }();
 
@@ -162,9 +162,8 @@ void sum_row(std::span<const line_element<Texel>> line, Texel* to, int width) no
             for (int i = 1; i <= Kernel::radius; ++i)
                 sum[c] = by::add(sum[c], by::template weight<wide>(Kernel::radius + i), tap(Kernel::radius - i),
                                  tap(Kernel::radius + i));
-            if constexpr (by::in_floats) sum[c] = static_cast<wide>(static_cast<float>(sum[c]) / static_cast<float>(by::whole));
         }
-        to[x] = Texel::from_linear(sum, by::in_floats ? wide{1} : by::whole);
+        to[x] = Texel::from_linear(sum, by::whole);
     }
 }
 

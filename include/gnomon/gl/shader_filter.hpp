@@ -241,11 +241,8 @@ template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string filter_ro
     using of = detail::filter_in_gl<Texel, Kernel>;
     using detail::vec;
     constexpr bool is_half = std::is_same_v<typename Texel::channel_type, half16>;
-    constexpr auto whole = static_cast<float>(of::by::whole); // that sums of floats are parts of
-    constexpr bool divides = !of::whole_codes && (whole < 1.0f || whole > 1.0f);
     std::string text = "// gnomon: rows of " + detail::filter_name<Texel, Kernel>() + "\n";
     if (is_half) text += std::string(half_text) + "\n";
-    if (divides) text += std::string(divide_text.substr(1)) + "\n";
     text += R"(uniform @sampler gnomon_sums;
 layout(location = 0) out @vec gnomon_texel;
 @weights@division
@@ -268,8 +265,6 @@ void gnomon_add(@number weight, int away) {
                              : "    gnomon_sum += weight * gnomon_at(away);\n";
     text += "}\n\nvoid main() {\n    gnomon_width = textureSize(gnomon_sums, 0).x;\n@taps";
     if constexpr (!of::whole_codes) {
-        const std::string by = ", " + detail::literal(whole) + ", " + detail::literal(1.0f / whole) + ")";
-        if (divides) text += "    gnomon_sum = " + detail::each_component<Texel>("gnomon_divide(gnomon_sum.", by) + ";\n";
         text += "    gnomon_texel = ";
         const std::string halves = detail::each_component<Texel>("gnomon_half(gnomon_sum.", ")");
         text += is_half ? halves : "gnomon_sum";

@@ -1,4 +1,4 @@
-// gnomon: columns of half16 (e, m) by 5 taps of together 9
+// gnomon: columns of half16 (e, m) by 5 taps of together 16777216
 // v / 2^bits to nearest, ties to even
 uint gnomon_nearest_even(uint v, int bits) {
     uint kept = v >> bits, rest = v - (kept << bits), tie = 1u << (bits - 1);
@@ -38,8 +38,8 @@ void gnomon_add(float weight, int away) {
 
 void main() {
     gnomon_height = textureSize(gnomon_texels, 0).y;
-    gnomon_sum = 0.1875 * gnomon_at(0);
-    gnomon_add(0.125, 1);
-    gnomon_add(0.0625, 2);
+    gnomon_sum = 0.33333337 * gnomon_at(0);
+    gnomon_add(0.22222221, 1);
+    gnomon_add(0.111111104, 2);
     gnomon_sums = vec2(gnomon_half(gnomon_sum.x), gnomon_half(gnomon_sum.y));
 }

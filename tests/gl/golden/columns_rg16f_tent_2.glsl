@@ -1,4 +1,4 @@
-// gnomon: columns of half16 (e, m) by 5 taps of together 9
+// gnomon: columns of half16 (e, m) by 5 taps of together 16777216
 uniform sampler2D gnomon_texels;
 layout(location = 0) out uvec2 gnomon_sums;
 
@@ -19,8 +19,8 @@ void gnomon_add(float weight, int away) {
 
 void main() {
     gnomon_height = textureSize(gnomon_texels, 0).y;
-    gnomon_sum = 0.1875 * gnomon_at(0);
-    gnomon_add(0.125, 1);
-    gnomon_add(0.0625, 2);
+    gnomon_sum = 0.33333337 * gnomon_at(0);
+    gnomon_add(0.22222221, 1);
+    gnomon_add(0.111111104, 2);
     gnomon_sums = floatBitsToUint(gnomon_sum);
 }

@@ -1,4 +1,4 @@
-// gnomon: columns of float32 (e, m) by 3 taps of together 3
+// gnomon: columns of float32 (e, m) by 3 taps of together 16777216
 uniform sampler2D gnomon_texels;
 layout(location = 0) out uvec2 gnomon_sums;
 
@@ -19,7 +19,7 @@ void gnomon_add(float weight, int away) {
 
 void main() {
     gnomon_height = textureSize(gnomon_texels, 0).y;
-    gnomon_sum = 0.25 * gnomon_at(0);
-    gnomon_add(0.25, 1);
+    gnomon_sum = 0.33333337 * gnomon_at(0);
+    gnomon_add(0.3333333, 1);
     gnomon_sums = floatBitsToUint(gnomon_sum);
 }

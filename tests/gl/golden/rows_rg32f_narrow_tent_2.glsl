@@ -1,14 +1,4 @@
-// gnomon: rows of float32 (e, m) by 5 taps of together 9
-// a / b, to the nearest float; inverse is 1 / b, which drivers compute with an error of some last places
-float gnomon_divide(float a, float b, float inverse) {
-    uint bits = floatBitsToUint(a * inverse) & 0xFFFFFFFEu; // the share as bits, for a product could be fused
-    float share = uintBitsToFloat(bits), high = uintBitsToFloat(bits & 0xFFFFF000u), low = share - high;
-    float b_high = uintBitsToFloat(floatBitsToUint(b) & 0xFFFFF000u), b_low = b - b_high;
-    precise float rest = ((a - high * b_high) - high * b_low) - low * b_high - low * b_low; // exact, be it fused or not
-    precise float quotient = share + rest * inverse;
-    return quotient;
-}
-
+// gnomon: rows of float32 (e, m) by 5 taps of together 16777216
 uniform sampler2D gnomon_sums;
 layout(location = 0) out vec2 gnomon_texel;
 
@@ -29,9 +19,8 @@ void gnomon_add(float weight, int away) {
 
 void main() {
     gnomon_width = textureSize(gnomon_sums, 0).x;
-    gnomon_sum = 0.1875 * gnomon_at(0);
-    gnomon_add(0.125, 1);
-    gnomon_add(0.0625, 2);
-    gnomon_sum = vec2(gnomon_divide(gnomon_sum.x, 0.31640625, 3.1604939), gnomon_divide(gnomon_sum.y, 0.31640625, 3.1604939));
+    gnomon_sum = 0.33333337 * gnomon_at(0);
+    gnomon_add(0.22222221, 1);
+    gnomon_add(0.111111104, 2);
     gnomon_texel = gnomon_sum;
 }
