@@ -349,17 +349,16 @@ TEST_CASE_TEMPLATE("a blend of half and float is decided in lanes, for float int
 }
 
 TEST_CASE("a blend of floats is summed in the oracle's order, which shows where a sum lies between two floats") {
-    image<rg32f> map({2, 2}, rg32f::clear());
-    map(0, 0) = {{0.0f, 1.0f}};
-    map(1, 0) = {{0.0f, 0x1p-24f}};               // half of a place more
-    map(0, 1) = map(1, 1) = {{0.0f, 0x1.8p-54f}}; // each too little to count, both together not
+    constexpr rg32f half_a_place{{0.0f, 0x1p-24f}}, too_little{{0.0f, 0x1.8p-54f}}; // to count, but two of it together
+    const std::array texels{rg32f{{0.0f, 1.0f}}, half_a_place, too_little, too_little};
+    const image_view<const rg32f> map(texels.data(), {2, 2}, 2 * sizeof(rg32f));
     const std::vector<float> middle(16, 1.0f), deep(16, 2.0f);
     std::vector<float> made(16);
     for_each_isa([&]<typename Isa>() {
-        gnomon::receive(simd<Isa>{}, map.view(), middle, middle, deep, made);
+        gnomon::receive(simd<Isa>{}, map, middle, middle, deep, made);
         CHECK(made == std::vector<float>(16, 0.25f));
     });
-    gnomon::receive(map.view(), middle, middle, deep, made);
+    gnomon::receive(map, middle, middle, deep, made);
     CHECK(made == std::vector<float>(16, 0.25f));
 }
 

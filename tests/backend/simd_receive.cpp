@@ -225,6 +225,19 @@ TEST_CASE_TEMPLATE("lanes tell of what is ordinary, and leave it to no loop of t
     }
 }
 
+TEST_CASE_TEMPLATE("lanes tell of receivers that lie exactly on their caster, of whole codes, beside others that do not", Texel,
+                   rg8, gnomon::rg16) {
+    using by = gnomon::on_any::decision<gnomon::emulated<32>, Texel, std::uint16_t, float>;
+    const std::vector<Texel> casters(8, Texel::caster(0.25f));
+    const auto [e, m] = casters[0].stored;
+    const auto on_it = static_cast<std::uint16_t>(65535 / m * (m - e));
+    const auto before = static_cast<std::uint16_t>(on_it - 1), behind = static_cast<std::uint16_t>(on_it + 1);
+    const std::array<std::uint16_t, 8> z{on_it, 0, on_it, 65535, before, on_it, behind, 30000};
+    std::array<float, 8> made{};
+    CHECK(by::one(by::of({.caster = gnomon::unbiased}), casters[0].stored, z.data(), made.data()));
+    CHECK(made == std::array{0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f, 1.0f});
+}
+
 TEST_CASE_TEMPLATE(
     "lanes decide against depths in codes as the oracle does, however many roundings there were, of masks that their "
     "bias moves below nothing too, which are no loop's",

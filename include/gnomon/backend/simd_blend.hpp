@@ -43,7 +43,7 @@ GNOMON_INLINE bool decided_by_codes(const blend_rule<Isa>& by, typename Isa::flo
                                     typename Isa::masks& shadowed) noexcept {
     const auto z = Isa::add(Isa::template codes_of<unorm16, 1>(depths, 0), by.z);
     const auto there = Isa::both(Isa::greater(mask, Isa::repeat(0.0f)), Isa::greater(z, by.before));
-    return decided_by_codes<Isa>(m, rest, z, Isa::repeat(doubt), there, shadowed);
+    return !Isa::any(decided_by_codes<Isa>(m, rest, z, Isa::repeat(doubt), there, shadowed));
 }
 
 /// Pairs of bytes. Both texels of a row come in one load of 32 bits; a blend is below 2^24 and so exact in float.
@@ -85,7 +85,8 @@ template <typename Isa, texel_format Texel> struct byte_blend {
         const floats e = Isa::add(blended.e, by.e), m = Isa::add(blended.m, by.m), rest = Isa::subtract(e, m);
         const floats depth = Isa::load(depths), z = Isa::add(depth, by.z);
         const masks asked = may_be_shadowed<Isa>(Isa::greater(blended.m, Isa::repeat(0.0f)), depth, by.lit_beyond);
-        if (!by.by_half_a_code) return surely_positive<Isa>(Isa::add_product(rest, m, z), Isa::repeat(doubt), asked, shadowed);
+        if (!by.by_half_a_code)
+            return !Isa::any(positive_or_in_doubt<Isa>(Isa::add_product(rest, m, z), Isa::repeat(doubt), asked, shadowed));
         shadowed = Isa::both(asked, Isa::positive(m, z, rest));
         return true;
     }
@@ -177,7 +178,7 @@ template <typename Isa, texel_format Texel> struct word_blend {
         const moved of = move(by, blended);
         const floats depth = Isa::load(depths), sum = Isa::add_product(of.rest, of.m, Isa::add(depth, by.z));
         const masks asked = may_be_shadowed<Isa>(Isa::greater(mask_of(blended), Isa::repeat(0.0f)), depth, by.lit_beyond);
-        return surely_positive<Isa>(sum, Isa::repeat(doubt), asked, shadowed);
+        return !Isa::any(positive_or_in_doubt<Isa>(sum, Isa::repeat(doubt), asked, shadowed));
     }
     GNOMON_LANES bool decided(const blend_rule<Isa>& by, const pair& blended, const std::uint16_t* depths,
                               masks& shadowed) noexcept {

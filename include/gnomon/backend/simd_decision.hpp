@@ -19,23 +19,23 @@ GNOMON_INLINE typename Isa::masks may_be_shadowed(const typename Isa::masks& ask
     return lit_beyond ? Isa::both(there, Isa::not_greater(depth, Isa::repeat(1.0f))) : there;
 }
 
-/// Whose sums are above nothing, of those `asked`. False if one of these lies within `doubt` of it.
+/// Whose sums are above nothing, of those `asked`, and in the result those of them that lie within `doubt` of it.
 template <typename Isa>
-GNOMON_INLINE bool surely_positive(const typename Isa::floats& sum, const typename Isa::floats& doubt,
-                                   const typename Isa::masks& asked, typename Isa::masks& positive) noexcept {
+GNOMON_INLINE typename Isa::masks positive_or_in_doubt(const typename Isa::floats& sum, const typename Isa::floats& doubt,
+                                                       const typename Isa::masks& asked, typename Isa::masks& positive) noexcept {
     positive = Isa::both(asked, Isa::not_greater(Isa::subtract(Isa::repeat(0.0f), doubt), sum));
-    return !Isa::any(Isa::both(positive, Isa::not_greater(sum, doubt)));
+    return Isa::both(positive, Isa::not_greater(sum, doubt));
 }
 
 /// The same of m z + rest times 65535, z in codes of 16 bits. Who is moved behind every caster is shadowed.
 template <typename Isa>
-GNOMON_INLINE bool decided_by_codes(const typename Isa::floats& m, const typename Isa::floats& rest, const typename Isa::floats& z,
-                                    const typename Isa::floats& doubt, const typename Isa::masks& asked,
-                                    typename Isa::masks& shadowed) noexcept {
+GNOMON_INLINE typename Isa::masks decided_by_codes(const typename Isa::floats& m, const typename Isa::floats& rest,
+                                                   const typename Isa::floats& z, const typename Isa::floats& doubt,
+                                                   const typename Isa::masks& asked, typename Isa::masks& shadowed) noexcept {
     const auto last = Isa::repeat(static_cast<float>(depth16::last));
     const auto behind_all = Isa::keep(Isa::greater(z, last), Isa::repeat(std::numeric_limits<float>::infinity()));
     const auto sum = Isa::add(Isa::add_product(Isa::multiply(rest, last), m, z), behind_all);
-    return surely_positive<Isa>(sum, doubt, asked, shadowed);
+    return positive_or_in_doubt<Isa>(sum, doubt, asked, shadowed);
 }
 
 /// One register of receivers at a time. A receiver is shadowed iff e > m (1-z), see receive/decide.hpp: of a biased pair and depth, the
@@ -43,11 +43,12 @@ GNOMON_INLINE bool decided_by_codes(const typename Isa::floats& m, const typenam
 ///
 ///     float depths      of unorm nothing; of half and float m <= 2^-50, and z that is moved towards the light by more than the range,
 ///                       or lies within 2^-50 of nothing when it has been moved by less than 2^-26
-///     depths in codes   one receiver in a million, or all that lie exactly where their shadow begins; in half and float m <= 2^-50,
-///                       and in float m > 2^100
+///     depths in codes   of unorm nothing; of half and float one receiver in a million, or all that lie exactly where their shadow begins,
+///                       m <= 2^-50, and in float m > 2^100
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct decision {
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
+    using ints = typename Isa::ints;
     using floats = typename Isa::floats;
     using masks = typename Isa::masks;
     static constexpr int step = Isa::float_lanes;
@@ -109,17 +110,29 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         return !Isa::any(Isa::both(there, Isa::not_greater(m, by.least_mask))) &&
                !(by.next_to_nothing && Isa::any(Isa::both(Isa::greater(z, zero), Isa::greater(Isa::repeat(0x1p-50f), z))));
     }
+    /// m z + (e-m) 65535 of whole codes, doubled, for then it is whole: modulo 2^32, so exact where it is near nothing.
+    GNOMON_LANES floats doubled_sum(const floats& m, const floats& rest, const floats& z) noexcept {
+        const ints of_m = Isa::multiply32(Isa::floor32(Isa::add(m, m)), Isa::floor32(z)), r = Isa::floor32(Isa::add(rest, rest));
+        return Isa::numbers(Isa::add32(of_m, Isa::subtract32(Isa::template shift_left32<16>(r), r)));
+    }
     /// m z + (e-m) 65535 > 0, z in codes. Three roundings are wrong by 3 * 2^-24 * 65535 m < m/64 at most where the two cancel; so
     /// within m/16 of nothing the sum says nothing. Whole codes m that a bias moves below nothing have e > 0, and a sum far above it.
     GNOMON_LANES bool decided_sums(const decision& by, const floats& e, const floats& m, const masks& there,
                                    const std::uint16_t* depths, masks& shadowed) noexcept {
         const floats z = Isa::subtract(Isa::template codes_of<unorm16, 1>(depths, 0), by.nearer);
-        const floats doubt = Isa::multiply(m, Isa::repeat(0.0625f));
+        const floats rest = Isa::subtract(e, m), doubt = Isa::multiply(m, Isa::repeat(0.0625f));
         const masks asked = Isa::both(there, Isa::greater(z, by.before));
-        if (!decided_by_codes<Isa>(m, Isa::subtract(e, m), z, doubt, asked, shadowed)) return false;
-        if constexpr (whole_codes) return true;
-        return !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) &&
-               !(std::same_as<channel_type, float32> && Isa::any(Isa::both(asked, Isa::greater(m, Isa::repeat(0x1p100f)))));
+        const masks in_doubt = decided_by_codes<Isa>(m, rest, z, doubt, asked, shadowed);
+        if constexpr (whole_codes) {
+            if (Isa::any(in_doubt)) {
+                const floats sure = Isa::drop(in_doubt, Isa::repeat(1.0f)), exact = Isa::keep(in_doubt, doubled_sum(m, rest, z));
+                shadowed = Isa::both(shadowed, Isa::greater(Isa::add(sure, exact), Isa::repeat(0.0f)));
+            }
+            return true;
+        } else {
+            return !Isa::any(in_doubt) && !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) &&
+                   !(std::same_as<channel_type, float32> && Isa::any(Isa::both(asked, Isa::greater(m, Isa::repeat(0x1p100f)))));
+        }
     }
 
     GNOMON_LANES_VOID void store(Intensity* to, const masks& shadowed, const floats& darkness) noexcept {
