@@ -1,7 +1,7 @@
 // gnomon: soft shadow maps. Blends of four texels in lanes, and the decision on them. Included by simd_points.hpp, and in its way.
 //
 // Blends of whole codes are whole numbers, 65536 to a code. A decision is a sum in floats: where its sign may be another one without what
-// was rounded, it says nothing, and a register of receivers goes by `sample` and `shadow`.
+// was rounded, whole numbers tell, if depths are codes; else a register of receivers goes by `sample` and `shadow`.
 
 #include <gnomon/receive/receive.hpp>
 #include <gnomon/simd/region.hpp>
@@ -36,14 +36,22 @@ template <typename Isa> struct blend_rule {
     }
 };
 
-/// decided_by_codes of a blend, m and rest in 65536 to a code. False if a receiver that has a mask lies within `doubt` of nothing.
+/// decided_by_codes of a blend: m and rest, 65536 to a code, and the pair as it was before it was moved, in whole numbers modulo 2^32,
+/// which tell of a receiver that has a mask and lies within `doubt` of nothing.
 template <typename Isa>
-GNOMON_INLINE bool decided_by_codes(const blend_rule<Isa>& by, typename Isa::floats m, typename Isa::floats rest,
-                                    typename Isa::floats mask, const std::uint16_t* depths, float doubt,
-                                    typename Isa::masks& shadowed) noexcept {
+GNOMON_INLINE typename Isa::masks decided_by_codes(const blend_rule<Isa>& by, typename Isa::floats m, typename Isa::floats rest,
+                                                   typename Isa::floats mask, typename Isa::ints whole_e,
+                                                   typename Isa::ints whole_m, const std::uint16_t* depths, float doubt) noexcept {
     const auto z = Isa::add(Isa::template codes_of<unorm16, 1>(depths, 0), by.z);
     const auto there = Isa::both(Isa::greater(mask, Isa::repeat(0.0f)), Isa::greater(z, by.before));
-    return !Isa::any(decided_by_codes<Isa>(m, rest, z, Isa::repeat(doubt), there, shadowed));
+    typename Isa::masks shadowed;
+    const auto in_doubt = decided_by_codes<Isa>(m, rest, z, Isa::repeat(doubt), there, shadowed);
+    if (Isa::any(in_doubt)) {
+        whole_m = Isa::add32(whole_m, Isa::floor32(by.m));
+        whole_e = Isa::add32(whole_e, Isa::floor32(by.e));
+        settle_doubt<Isa>(in_doubt, sum_modulo<Isa>(whole_m, Isa::subtract32(whole_e, whole_m), z), shadowed);
+    }
+    return shadowed;
 }
 
 /// Pairs of bytes. Both texels of a row come in one load of 32 bits; a blend is below 2^24 and so exact in float.
@@ -94,7 +102,9 @@ template <typename Isa, texel_format Texel> struct byte_blend {
     GNOMON_LANES bool decided(const blend_rule<Isa>& by, const pair& blended, const std::uint16_t* depths,
                               masks& shadowed) noexcept {
         const floats e = Isa::add(blended.e, by.e), m = Isa::add(blended.m, by.m);
-        return decided_by_codes(by, m, Isa::subtract(e, m), blended.m, depths, doubt * 0x1p17f, shadowed);
+        shadowed = decided_by_codes(by, m, Isa::subtract(e, m), blended.m, Isa::floor32(blended.e), Isa::floor32(blended.m), depths,
+                                    doubt * 0x1p17f);
+        return true;
     }
 
     GNOMON_LANES_VOID void store(float* to, const masks& shadowed, const pair& blended) noexcept {
@@ -183,7 +193,8 @@ template <typename Isa, texel_format Texel> struct word_blend {
     GNOMON_LANES bool decided(const blend_rule<Isa>& by, const pair& blended, const std::uint16_t* depths,
                               masks& shadowed) noexcept {
         const moved of = move(by, blended);
-        return decided_by_codes(by, of.m, of.rest, mask_of(blended), depths, doubt * 0x1p16f, shadowed);
+        shadowed = decided_by_codes(by, of.m, of.rest, mask_of(blended), blended.e, blended.m, depths, doubt * 0x1p16f);
+        return true;
     }
 
     /// The mask where there is shadow, else nothing.

@@ -38,6 +38,21 @@ GNOMON_INLINE typename Isa::masks decided_by_codes(const typename Isa::floats& m
     return positive_or_in_doubt<Isa>(sum, doubt, asked, shadowed);
 }
 
+/// m z + rest times 65535 of whole numbers modulo 2^32: exact where floats are in doubt, for it is near nothing there.
+template <typename Isa>
+GNOMON_INLINE typename Isa::ints sum_modulo(const typename Isa::ints& m, const typename Isa::ints& rest,
+                                            const typename Isa::floats& z) noexcept {
+    const auto rest_times = Isa::subtract32(Isa::template shift_left32<16>(rest), rest);
+    return Isa::add32(Isa::multiply32(m, Isa::floor32(z)), rest_times);
+}
+/// Takes away those in doubt whose sums are not above nothing after all.
+template <typename Isa>
+GNOMON_INLINE void settle_doubt(const typename Isa::masks& in_doubt, const typename Isa::ints& sum,
+                                typename Isa::masks& positive) noexcept {
+    const auto others = Isa::drop(in_doubt, Isa::repeat(1.0f)), asked = Isa::keep(in_doubt, Isa::numbers(sum));
+    positive = Isa::both(positive, Isa::greater(Isa::add(others, asked), Isa::repeat(0.0f)));
+}
+
 /// One register of receivers at a time. A receiver is shadowed iff e > m (1-z), see receive/decide.hpp: of a biased pair and depth, the
 /// sign of a product and a sum, exact wherever one of the functions below says that it is. What is left goes by the scalar loop:
 ///
@@ -110,11 +125,6 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         return !Isa::any(Isa::both(there, Isa::not_greater(m, by.least_mask))) &&
                !(by.next_to_nothing && Isa::any(Isa::both(Isa::greater(z, zero), Isa::greater(Isa::repeat(0x1p-50f), z))));
     }
-    /// m z + (e-m) 65535 of whole codes, doubled, for then it is whole: modulo 2^32, so exact where it is near nothing.
-    GNOMON_LANES floats doubled_sum(const floats& m, const floats& rest, const floats& z) noexcept {
-        const ints of_m = Isa::multiply32(Isa::floor32(Isa::add(m, m)), Isa::floor32(z)), r = Isa::floor32(Isa::add(rest, rest));
-        return Isa::numbers(Isa::add32(of_m, Isa::subtract32(Isa::template shift_left32<16>(r), r)));
-    }
     /// m z + (e-m) 65535 > 0, z in codes. Three roundings are wrong by 3 * 2^-24 * 65535 m < m/64 at most where the two cancel; so
     /// within m/16 of nothing the sum says nothing. Whole codes m that a bias moves below nothing have e > 0, and a sum far above it.
     GNOMON_LANES bool decided_sums(const decision& by, const floats& e, const floats& m, const masks& there,
@@ -124,9 +134,9 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         const masks asked = Isa::both(there, Isa::greater(z, by.before));
         const masks in_doubt = decided_by_codes<Isa>(m, rest, z, doubt, asked, shadowed);
         if constexpr (whole_codes) {
-            if (Isa::any(in_doubt)) {
-                const floats sure = Isa::drop(in_doubt, Isa::repeat(1.0f)), exact = Isa::keep(in_doubt, doubled_sum(m, rest, z));
-                shadowed = Isa::both(shadowed, Isa::greater(Isa::add(sure, exact), Isa::repeat(0.0f)));
+            if (Isa::any(in_doubt)) { // doubled, for then it is whole
+                const ints twice_m = Isa::floor32(Isa::add(m, m)), twice_rest = Isa::floor32(Isa::add(rest, rest));
+                settle_doubt<Isa>(in_doubt, sum_modulo<Isa>(twice_m, twice_rest, z), shadowed);
             }
             return true;
         } else {
