@@ -2,6 +2,7 @@
 // across each of its borders and far away; every width, any stride and rule; and nothing beside the map is read.
 #include <gnomon/backend/simd.hpp>
 #include <gnomon/backend/simd_blend.hpp>
+#include <gnomon/backend/simd_number_blend.hpp>
 #include <gnomon/backend/simd_points.hpp>
 
 #include "../support/bits.hpp"

@@ -1,4 +1,5 @@
-// gnomon: soft shadow maps. Blends of four texels in lanes, and the decision on them. Included by simd_points.hpp, and in its way.
+// gnomon: soft shadow maps. Blends of four texels in lanes, and the decision on them, first part: whole codes. Included by simd_points.hpp
+// after simd_decision.hpp, and in its way.
 //
 // Blends of whole codes are whole numbers, 65536 to a code. A decision is a sum in floats: where its sign may be another one without what
 // was rounded, whole numbers tell, if depths are codes; else a register of receivers goes by `sample` and `shadow`.
@@ -10,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
@@ -222,71 +222,6 @@ template <typename Isa, texel_format Texel> struct word_blend {
         constexpr std::uint32_t factor = ((1u << 28) + 513) / 514;
         const ints sum = Isa::add32(halves(kept(shadowed, blended.m)), Isa::repeat32(257));
         Isa::store_low(to, Isa::template multiply_shift32<28>(sum, Isa::repeat32(factor)));
-    }
-};
-
-/// Pairs of half and float, summed in doubles in the order of `sample`. The decision takes a sum as a float, as that of rows does a
-/// number.
-template <typename Isa, texel_format Texel, typename Depth> struct number_blend {
-    using ints = typename Isa::ints;
-    using floats = typename Isa::floats;
-    using masks = typename Isa::masks;
-    using doubles = typename Isa::doubles;
-    using number = float;
-    using deciding = decision<Isa, Texel, Depth, float>;
-    static constexpr int step = Isa::float_lanes;
-
-    struct moving : deciding {
-        template <texel_format, typename> [[nodiscard]] static moving of(const rule& r) noexcept { return {deciding::of(r)}; }
-    };
-    struct pair {
-        floats e, m;
-    };
-    template <int Ring> struct fetched {
-        Texel corner[4][static_cast<std::size_t>(Ring)];
-        void take(int i, const std::byte* upper, const std::byte* lower) noexcept {
-            for (int k = 0; k < 4; ++k)
-                std::memcpy(corner[k] + i, (k < 2 ? upper : lower) + (k % 2) * static_cast<int>(sizeof(Texel)), sizeof(Texel));
-        }
-    };
-
-    GNOMON_LANES floats weight(const ints& of_row) noexcept { return Isa::numbers(of_row); }
-
-    template <int Ring>
-    GNOMON_LANES pair blend(const fetched<Ring>& from, int i, const ints& across, const floats& here, const floats& next) noexcept {
-        const floats left = Isa::numbers(Isa::both(across, Isa::repeat32(0xFFFF)));
-        const floats right = Isa::numbers(Isa::template shift_right32<16>(across));
-        alignas(64) float weights[4][static_cast<std::size_t>(step)], made[2][static_cast<std::size_t>(step)];
-        Isa::store(weights[0], Isa::multiply(left, here));
-        Isa::store(weights[1], Isa::multiply(right, here));
-        Isa::store(weights[2], Isa::multiply(left, next));
-        Isa::store(weights[3], Isa::multiply(right, next));
-        GNOMON_UNROLL(2)
-        for (int c = 0; c < 2; ++c) {
-            alignas(64) float codes[4][static_cast<std::size_t>(step)];
-            GNOMON_UNROLL(4)
-            for (int k = 0; k < 4; ++k)
-                Isa::store(codes[k], Isa::template codes_of<typename Texel::channel_type, 2>(from.corner[k][i].stored, c));
-            for (int at = 0; at < step; at += Isa::double_lanes) {
-                doubles sum = Isa::repeat(0.0);
-                GNOMON_UNROLL(4)
-                for (int k = 0; k < 4; ++k) // the products are exact
-                    sum = Isa::add_product(sum, Isa::template codes<float32>(weights[k] + at),
-                                           Isa::template codes<float32>(codes[k] + at));
-                Isa::template store_codes<float32>(made[c] + at, Isa::multiply(sum, Isa::repeat(1.0 / 65536.0)));
-            }
-        }
-        return {Isa::load(made[Texel::depth_index]), Isa::load(made[Texel::mask_index])};
-    }
-
-    /// What is infinite beside the map may have been weighed by nothing, and left none.
-    GNOMON_LANES bool decided(const moving& by, const pair& blended, const Depth* depths, masks& shadowed) noexcept {
-        constexpr float infinity = std::numeric_limits<float>::infinity();
-        return !Isa::any(Isa::not_greater(Isa::add(blended.e, blended.m), Isa::repeat(-infinity))) &&
-               deciding::decided(by, blended.e, blended.m, depths, shadowed);
-    }
-    GNOMON_LANES_VOID void store(float* to, const masks& shadowed, const pair& blended) noexcept {
-        deciding::store(to, shadowed, blended.m);
     }
 };
 

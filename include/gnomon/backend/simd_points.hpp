@@ -2,6 +2,7 @@
 
 #include <gnomon/backend/lane_formats.hpp>
 #include <gnomon/backend/simd_blend.hpp>
+#include <gnomon/backend/simd_number_blend.hpp>
 #include <gnomon/backend/stretch.hpp>
 #include <gnomon/receive/receive.hpp>
 #include <gnomon/simd/region.hpp>
