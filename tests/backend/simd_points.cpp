@@ -143,7 +143,7 @@ TEST_CASE_TEMPLATE("receivers anywhere are decided exactly where a shadow begins
                 const float begins = test::first_shadowed(gnomon::sample(map.view(), p.x.back(), p.y.back()), r);
                 const int code = gnomon::unorm16::encode(static_cast<double>(begins));
                 p.codes.back() = static_cast<std::uint16_t>(std::clamp(code + roll(-1, 1), 0, 65535));
-                if (alone) p.z.back() = roll.one_in(2) ? test::down(begins) : begins;
+                if (alone || std::is_same_v<Texel, rg16>) p.z.back() = roll.one_in(2) ? test::down(begins) : begins;
             }
             const auto as_by_the_oracle = [&](const auto& z) {
                 std::vector<float> expected(p.x.size()), made(p.x.size());
@@ -319,14 +319,25 @@ template <typename Texel> void told_from(double doubt, double mask, gnomon::bias
         CHECK(told<Texel, float>(mask, sign * doubt * 2, bias));
     }
 }
+/// Of a 65536th of a code under nothing, for a receiver so near to the far plane.
+bool told_of_least_mask(float beyond) {
+    using blending = gnomon::on_any::blended_decision<lanes, rg16, float, float>::blending;
+    const float z = 1.0f - beyond;
+    const std::array depths{z, z, z, z};
+    lanes::masks shadowed{};
+    return blending::decided(gnomon::on_any::blend_rule<lanes>::of<rg16, float>({.caster = gnomon::unbiased}),
+                             {lanes::repeat32(0), lanes::repeat32(1)}, depths.data(), shadowed);
+}
 } // namespace
 
-TEST_CASE("a blend is decided by floats but near nothing: words within a 16th of a code, bytes that more than one rounding moves "
-          "within an 8192nd; against depths in codes it always is") {
+TEST_CASE("a blend is decided but nearest nothing: words within 2^-32 of a code, bytes that more than one rounding moves within an "
+          "8192nd; against depths in codes it always is") {
     for (const double mask : {65535.0, 4097.0, 2.0}) {
-        told_from<rg16>(0x1p-4, mask, gnomon::unbiased);
+        CHECK_FALSE(told<rg16, float>(mask, 0.0, gnomon::unbiased));
+        for (const double sign : {-1.0, 1.0}) CHECK(told<rg16, float>(mask, sign * 0x1p-16, gnomon::unbiased));
         CHECK(told<rg16, std::uint16_t>(mask, mask / 131070.0, gnomon::unbiased));
     }
+    CHECK((told_of_least_mask(0x1.2p-16f) && !told_of_least_mask(0x1.ep-17f)));
     for (const double mask : {255.0, 16.0, 2.0}) {
         told_from<rg8>(0x1p-13, mask, {.roundings = 2});
         CHECK(told<rg8, float>(mask, 0.0, {.roundings = 1}));

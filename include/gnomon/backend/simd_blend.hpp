@@ -2,7 +2,8 @@
 // after simd_decision.hpp, and in its way.
 //
 // Blends of whole codes are whole numbers, 65536 to a code. A decision is a sum in floats: where its sign may be another one without what
-// was rounded, whole numbers tell, if depths are codes; else a register of receivers goes by `sample` and `shadow`.
+// was rounded, whole numbers tell if depths are codes, and doubles if a blend has more bits than a float; what these leave, a register
+// of receivers, goes by `sample` and `shadow`.
 
 #include <gnomon/receive/receive.hpp>
 #include <gnomon/simd/region.hpp>
@@ -128,7 +129,8 @@ template <typename Isa, texel_format Texel> struct word_blend {
     using masks = typename Isa::masks;
     using moving = blend_rule<Isa>;
     using number = std::uint32_t;
-    static constexpr float doubt = 0x1p12f; ///< a 16th of a code
+    static constexpr int step = Isa::float_lanes;
+    static constexpr float doubt = 0x1p12f; ///< of floats, a 16th of a code
 
     struct pair {
         ints e, m;
@@ -170,14 +172,14 @@ template <typename Isa, texel_format Texel> struct word_blend {
     GNOMON_LANES floats joined(const floats& high, const floats& low) noexcept {
         return Isa::add(Isa::multiply(high, Isa::repeat(blend_whole)), low);
     }
-    /// A blend as its halves, and the mask and e - m, once moved.
+    /// The mask and e - m, once moved, each as 65536 times one number and another.
     struct moved {
-        floats m, rest;
+        floats m_high, m_low, rest_high, rest_low;
     };
     GNOMON_LANES moved move(const blend_rule<Isa>& by, const pair& blended) noexcept {
         const floats e_high = Isa::numbers(upper(blended.e)), m_high = Isa::numbers(upper(blended.m));
         const floats e_low = Isa::add(Isa::numbers(lower(blended.e)), by.e), m_low = Isa::add(Isa::numbers(lower(blended.m)), by.m);
-        return {joined(m_high, m_low), joined(Isa::subtract(e_high, m_high), Isa::subtract(e_low, m_low))};
+        return {m_high, m_low, Isa::subtract(e_high, m_high), Isa::subtract(e_low, m_low)};
     }
     GNOMON_LANES floats mask_of(const pair& blended) noexcept {
         return joined(Isa::numbers(upper(blended.m)), Isa::numbers(lower(blended.m)));
@@ -186,15 +188,40 @@ template <typename Isa, texel_format Texel> struct word_blend {
     /// m z + (e-m) > 0. Where the two cancel they are less than 2^34, and all that is rounded of them less than 2^11.
     GNOMON_LANES bool decided(const blend_rule<Isa>& by, const pair& blended, const float* depths, masks& shadowed) noexcept {
         const moved of = move(by, blended);
-        const floats depth = Isa::load(depths), sum = Isa::add_product(of.rest, of.m, Isa::add(depth, by.z));
+        const floats depth = Isa::load(depths), z = Isa::add(depth, by.z);
+        const floats sum = Isa::add_product(joined(of.rest_high, of.rest_low), joined(of.m_high, of.m_low), z);
         const masks asked = may_be_shadowed<Isa>(Isa::greater(mask_of(blended), Isa::repeat(0.0f)), depth, by.lit_beyond);
-        return !Isa::any(positive_or_in_doubt<Isa>(sum, Isa::repeat(doubt), asked, shadowed));
+        const masks in_doubt = positive_or_in_doubt<Isa>(sum, Isa::repeat(doubt), asked, shadowed);
+        if (!Isa::any(in_doubt)) return true;
+        const floats again = in_doubles(of, z);
+        settle_doubt<Isa>(in_doubt, again, shadowed);
+        return !Isa::any(Isa::both(in_doubt, Isa::not_greater(Isa::multiply(again, again), Isa::repeat(0x1p-32f))));
     }
     GNOMON_LANES bool decided(const blend_rule<Isa>& by, const pair& blended, const std::uint16_t* depths,
                               masks& shadowed) noexcept {
         const moved of = move(by, blended);
-        shadowed = decided_by_codes(by, of.m, of.rest, mask_of(blended), blended.e, blended.m, depths, doubt * 0x1p16f);
+        shadowed = decided_by_codes(by, joined(of.m_high, of.m_low), joined(of.rest_high, of.rest_low), mask_of(blended), blended.e,
+                                    blended.m, depths, doubt * 0x1p16f);
         return true;
+    }
+    /// The same sum, wrong by less than 2^-18 where it is near nothing.
+    GNOMON_LANES floats in_doubles(const moved& of, const floats& z) noexcept {
+        alignas(64) float m[2][static_cast<std::size_t>(step)], rest[2][static_cast<std::size_t>(step)];
+        alignas(64) float depths[static_cast<std::size_t>(step)], sums[static_cast<std::size_t>(step)];
+        Isa::store(m[0], of.m_high);
+        Isa::store(m[1], of.m_low);
+        Isa::store(rest[0], of.rest_high);
+        Isa::store(rest[1], of.rest_low);
+        Isa::store(depths, z);
+        for (int i = 0; i < step; i += Isa::double_lanes) {
+            const auto depth = Isa::template codes<float32>(depths + i);
+            const auto high =
+                Isa::add_product(Isa::template codes<float32>(rest[0] + i), Isa::template codes<float32>(m[0] + i), depth);
+            const auto low =
+                Isa::add_product(Isa::template codes<float32>(rest[1] + i), Isa::template codes<float32>(m[1] + i), depth);
+            Isa::template store_codes<float32>(sums + i, Isa::add(Isa::multiply(high, Isa::repeat(65536.0)), low));
+        }
+        return Isa::load(sums);
     }
 
     /// The mask where there is shadow, else nothing.

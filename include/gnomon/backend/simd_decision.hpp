@@ -40,16 +40,16 @@ GNOMON_INLINE typename Isa::masks decided_by_codes(const typename Isa::floats& m
 
 /// m z + rest times 65535 of whole numbers modulo 2^32: exact where floats are in doubt, for it is near nothing there.
 template <typename Isa>
-GNOMON_INLINE typename Isa::ints sum_modulo(const typename Isa::ints& m, const typename Isa::ints& rest,
-                                            const typename Isa::floats& z) noexcept {
+GNOMON_INLINE typename Isa::floats sum_modulo(const typename Isa::ints& m, const typename Isa::ints& rest,
+                                              const typename Isa::floats& z) noexcept {
     const auto rest_times = Isa::subtract32(Isa::template shift_left32<16>(rest), rest);
-    return Isa::add32(Isa::multiply32(m, Isa::floor32(z)), rest_times);
+    return Isa::numbers(Isa::add32(Isa::multiply32(m, Isa::floor32(z)), rest_times));
 }
 /// Takes away those in doubt whose sums are not above nothing after all.
 template <typename Isa>
-GNOMON_INLINE void settle_doubt(const typename Isa::masks& in_doubt, const typename Isa::ints& sum,
+GNOMON_INLINE void settle_doubt(const typename Isa::masks& in_doubt, const typename Isa::floats& sum,
                                 typename Isa::masks& positive) noexcept {
-    const auto others = Isa::drop(in_doubt, Isa::repeat(1.0f)), asked = Isa::keep(in_doubt, Isa::numbers(sum));
+    const auto others = Isa::drop(in_doubt, Isa::repeat(1.0f)), asked = Isa::keep(in_doubt, sum);
     positive = Isa::both(positive, Isa::greater(Isa::add(others, asked), Isa::repeat(0.0f)));
 }
 
