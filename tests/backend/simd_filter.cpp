@@ -488,7 +488,7 @@ template <typename Kernel, typename Texel> constexpr std::size_t bytes_of_stack(
         using pass = gnomon::on_any::box_filter<lanes, Kernel, Texel>;
         return bytes_of_sums<pass, Texel>();
     } else if constexpr (gnomon::on_any::runs_in_doubles<Kernel, Texel>) { // before the others, which take no more
-        using pass = gnomon::on_any::float_box<lanes, Kernel, Texel>;
+        using pass = gnomon::on_any::double_box<lanes, Kernel, Texel>;
         return bytes_of_sums<pass, Texel>();
     } else {
         using pass = gnomon::on_any::filter_of<lanes, Kernel, Texel>;

@@ -4,7 +4,7 @@
 // Down the columns a sum runs: from row to row one code comes in and one goes out. Across them it is the difference of two sums from
 // the left end, which a register makes in a few steps. All in whole numbers modulo 2^32, so that nothing drifts.
 
-#include <gnomon/backend/simd_float_box.hpp>
+#include <gnomon/backend/simd_double_box.hpp>
 #include <gnomon/filter/separable.hpp>
 #include <gnomon/simd/region.hpp>
 
@@ -162,7 +162,7 @@ bool filter(image_view<const Texel> from, image_view<Texel> to, texel_rect regio
         return filter_box<box_filter<Isa, Kernel, Texel>, Kernel>(from, to, region);
     } else {
         if constexpr (runs_in_doubles<Kernel, Texel>)
-            if (!scratch.empty() && filter_box<float_box<Isa, Kernel, Texel>, Kernel>(from, to, region)) return true;
+            if (!scratch.empty() && filter_box<double_box<Isa, Kernel, Texel>, Kernel>(from, to, region)) return true;
         return filter_rows<Isa, Kernel, Texel>(from, to, region, scratch);
     }
 }

@@ -1,7 +1,7 @@
-// Boxes of half and float in lanes, whose sums run where that rounds nothing: the bits of the oracle, and a cost that does not know the
-// radius.
+// Boxes in lanes whose sums run in doubles where that rounds nothing, of half and float and of wide boxes of words: the bits of the oracle,
+// and a cost that does not know the radius.
 #include <gnomon/backend/simd.hpp>
-#include <gnomon/backend/simd_float_box.hpp>
+#include <gnomon/backend/simd_double_box.hpp>
 
 #include "../support/formats.hpp"
 #include "../support/kernels.hpp"
@@ -20,7 +20,9 @@ using gnomon::box;
 using gnomon::filter_scratch;
 using gnomon::image;
 using gnomon::image_view;
+using gnomon::rg16;
 using gnomon::rg32f;
+using gnomon::simd;
 using gnomon::texel_rect;
 using test::dice;
 using test::differing;
@@ -45,21 +47,37 @@ template <typename Isa, typename Kernel, typename Texel>
 bool runs(image_view<const Texel> from, image_view<Texel> to, texel_rect region) {
     return gnomon::detail::in_lanes<Isa>([&]<typename Lanes>() {
         if constexpr (gnomon::detail::level_needed<Lanes> == gnomon::cpu_level::portable)
-            return gnomon::on_any::filter_box<gnomon::on_any::float_box<Lanes, Kernel, Texel>, Kernel>(from, to, region);
+            return gnomon::on_any::filter_box<gnomon::on_any::double_box<Lanes, Kernel, Texel>, Kernel>(from, to, region);
         else
-            return gnomon::on_any::filter_box<gnomon::on_any::float_box<gnomon::emulated<32>, Kernel, Texel>, Kernel>(from, to,
-                                                                                                                      region);
+            return gnomon::on_any::filter_box<gnomon::on_any::double_box<gnomon::emulated<32>, Kernel, Texel>, Kernel>(from, to,
+                                                                                                                       region);
     });
 }
 } // namespace
 
-TEST_CASE("sums run for boxes of half and float of radius 8 to 256, summed exactly") {
+TEST_CASE("sums run in doubles for boxes of words, half and float of radius 8 to 256, summed exactly") {
     using gnomon::on_any::runs_in_doubles;
     CHECK(
         (runs_in_doubles<box<8>, rg32f> && runs_in_doubles<box<256>, gnomon::rgba16f> && runs_in_doubles<box<9>, test::paper16f>));
-    CHECK_FALSE((runs_in_doubles<box<7>, rg32f> || runs_in_doubles<box<257>, rg32f>));
-    CHECK_FALSE((runs_in_doubles<box<8>, gnomon::rg16> || runs_in_doubles<gnomon::fast<box<8>>, rg32f> ||
-                 runs_in_doubles<gnomon::tent<8>, rg32f>));
+    CHECK((runs_in_doubles<gnomon::fast<box<256>>, rg16> && simd<>::sums_run<box<110>, rg16> && simd<>::sums_run<box<256>, rg16>));
+    CHECK_FALSE((runs_in_doubles<box<7>, rg32f> || runs_in_doubles<box<257>, rg32f> || runs_in_doubles<box<257>, rg16>));
+    CHECK_FALSE((runs_in_doubles<gnomon::fast<box<8>>, rg32f> || runs_in_doubles<gnomon::tent<8>, rg32f> ||
+                 runs_in_doubles<gnomon::narrow<box<130>>, rg16> || runs_in_doubles<box<9>, gnomon::tm16>));
+}
+
+TEST_CASE_TEMPLATE(
+    "boxes of words have the bits of the oracle where their sums have more than 32 bits, or no product is their mean", Texel, rg16,
+    gnomon::rgb16) {
+    dice roll(444);
+    const image<Texel> map = casters<Texel>(roll, {300, 30}), full({520, 3}, Texel::caster(0.0f));
+    for_each_isa([&]<typename Isa>() {
+        test::for_each_kernel(test::kernels<box<110>, box<128>, gnomon::fast<box<200>>>{}, [&]<typename Kernel>() {
+            CAPTURE(Kernel::radius);
+            for (const texel_rect part : {whole(map.size()), texel_rect{3, 7, 5, 9}, texel_rect{290, 20, 300, 30}})
+                CHECK(differing<Isa, Kernel>(image_view<const Texel>(map.view()), part) == 0);
+            CHECK(differing<Isa, Kernel>(image_view<const Texel>(full.view()), texel_rect{200, 1, 290, 2}) == 0);
+        });
+    });
 }
 
 TEST_CASE_TEMPLATE("boxes of half and float have the bits of the oracle, of the whole of a map and any part", Texel, rg32f,
@@ -131,7 +149,7 @@ TEST_CASE("a box of floats eight times as wide loads little more, and far less t
     const auto loads = [&]<typename Kernel>() {
         filter_scratch<rg32f, Kernel> scratch(256);
         test::counted_lanes::forget();
-        gnomon::simd<test::counted_lanes>{}.filter_region(map.view(), made.view(), whole(map.size()), scratch);
+        simd<test::counted_lanes>{}.filter_region(map.view(), made.view(), whole(map.size()), scratch);
         return test::counted_lanes::loads;
     };
     const int narrow = loads.operator()<box<8>>();

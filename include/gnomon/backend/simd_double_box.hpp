@@ -1,5 +1,5 @@
-// gnomon: soft shadow maps. The box filter in lanes, second part: half and float, where sums that run round nothing. Included by
-// simd_box.hpp, and in its way.
+// gnomon: soft shadow maps. The box filter in lanes, second part: sums that run in doubles and round nothing, of half and float, and of
+// codes where 32 bits are not enough. Included by simd_box.hpp after simd_filter.hpp, and in its way.
 
 #include <gnomon/filter/separable.hpp>
 #include <gnomon/simd/region.hpp>
@@ -12,15 +12,16 @@
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
-/// Half and float under equal weights. Multiples of 2^-24 in [0, 1] are all halves there, and what opaque casters at float depths are
-/// stored as. Of (2R+1)^2 of them a double holds any sum, for R up to 256, and a line's 36 bits hold those of 2R+1: so sums may run,
-/// and have the bits of any other order.
-template <typename Isa, kernel Kernel, texel_format Texel> struct float_box {
+/// Equal weights. Multiples of 2^-24 in [0, 1] are all halves there, and what opaque casters at float depths are stored as. Of (2R+1)^2
+/// of them, or of codes, a double holds any sum, for R up to 256, and a line's 36 bits hold those of 2R+1: so sums may run, and have the
+/// bits of any other order.
+template <typename Isa, kernel Kernel, texel_format Texel> struct double_box {
     using sum = double;
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
     using ints = typename Isa::ints;
     using floats = typename Isa::floats;
+    using doubles = typename Isa::doubles;
     static constexpr int channels = Texel::channels, step = Isa::double_lanes;
     static constexpr int taps = 2 * Kernel::radius + 1, margin = Kernel::radius * channels, window = taps * channels;
     static constexpr int strip = piece_bytes / 8 / channels * channels;
@@ -30,6 +31,13 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct float_box {
 
     /// Is a row what sums may run over?
     [[nodiscard]] static bool is_summable(const storage* row, int count) noexcept {
+        if constexpr (channel_type::whole_codes)
+            return true;
+        else
+            return is_of_parts(row, count);
+    }
+    /// Are they multiples of 2^-24?
+    [[nodiscard]] static bool is_of_parts(const storage* row, int count) noexcept {
         constexpr int at_once = Isa::float_lanes;
         constexpr bool halves = sizeof(storage) == 2;
         ints least = Isa::repeat32(0), most = Isa::repeat32(0);
@@ -73,12 +81,16 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct float_box {
     /// A row of texels from the sums of columns, and a register more.
     void make(const double* sums, storage* to, int count) noexcept {
         slide(sums, count);
-        const auto whole = Isa::repeat(detail::sums<Texel, Kernel>::whole);
-        for (int i = 0; i < count; i += step)
-            Isa::template store_codes<channel_type>(to + i, Isa::divide(Isa::load(all_ + i), whole));
+        for (int i = 0; i < count; i += step) Isa::template store_codes<channel_type>(to + i, mean(Isa::load(all_ + i)));
     }
 
   private:
+    GNOMON_LANES doubles mean(const doubles& sum) noexcept {
+        if constexpr (channel_type::whole_codes)
+            return wide_filter<Isa, Kernel, Texel, double>::quotient(sum);
+        else
+            return Isa::divide(sum, Isa::repeat(detail::sums<Texel, Kernel>::whole));
+    }
     /// The sums of windows: what comes in on the right goes out on the left.
     void slide(const double* sums, int count) noexcept {
         constexpr int chains = 4 * channels; // one addition waits for another
@@ -102,13 +114,14 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct float_box {
     alignas(64) double all_[static_cast<std::size_t>(strip + step)]{};
 };
 
-/// Can sums of this texel and kernel run in doubles, and is that quicker?
+/// Can sums of this texel and kernel run in doubles, and is that quicker than tap by tap?
 template <kernel Kernel, texel_format Texel>
 inline constexpr bool runs_in_doubles = [] {
     using channel_type = typename Texel::channel_type;
     using by = detail::sums<Texel, Kernel>;
-    return (std::is_same_v<channel_type, half16> || std::is_same_v<channel_type, float32>) &&
-           Texel::representation_type::premultiplied && !by::in_floats && detail::is_box<typename by::weights_of> &&
+    constexpr bool codes = std::is_same_v<channel_type, unorm16> && !by::stored_between;
+    constexpr bool numbers = (std::is_same_v<channel_type, half16> || std::is_same_v<channel_type, float32>) && !by::in_floats;
+    return (codes || numbers) && Texel::representation_type::premultiplied && detail::is_box<typename by::weights_of> &&
            Kernel::radius >= 8 && Kernel::radius <= 256;
 }();
 
