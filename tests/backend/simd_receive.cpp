@@ -252,9 +252,9 @@ TEST_CASE_TEMPLATE(
                 texels[i] = test::any_caster<Texel>(roll);
                 if (roll.one_in(2)) texels[i].stored[1] = static_cast<typename Texel::storage>(roll(0, 3));
                 if (texels[i].stored[0] > texels[i].stored[1]) texels[i].stored[0] = texels[i].stored[1];
-                const float begins = gnomon::lesser(test::first_shadowed(texels[i], r), 1.0f); // one of them to a register at most
-                z[i] =
-                    static_cast<std::uint16_t>(i % 64 == 0 ? gnomon::unorm16::encode(static_cast<double>(begins)) : roll(0, 65535));
+                const float begins = gnomon::lesser(test::first_shadowed(texels[i], r), 1.0f);
+                const int first = gnomon::unorm16::encode(static_cast<double>(begins));
+                z[i] = static_cast<std::uint16_t>(roll.one_in(8) ? roll(0, 65535) : std::clamp(first + roll(-1, 1), 0, 65535));
             }
             const auto as_the_oracle = [&]<typename Intensity>(Intensity) {
                 std::vector<Intensity> expected(z.size()), made(z.size());

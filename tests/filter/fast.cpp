@@ -64,6 +64,13 @@ struct one_too_many {
     static constexpr int radius = 1, total = 257;
     static constexpr std::array<int, 3> weights{1, 255, 1};
 };
+/// The sum of what floats are weighed by.
+template <kernel Kernel>
+constexpr int fast_total = [] {
+    int sum = 0;
+    for (const int w : detail::sums<rg32f, fast<Kernel>>::weights_of::weights) sum += w;
+    return sum;
+}();
 /// What floats weigh by if a kernel's total is no power of two.
 template <kernel Kernel> using of_24_bits = detail::in_units<Kernel, 1 << 24>;
 } // namespace
@@ -71,6 +78,7 @@ template <kernel Kernel> using of_24_bits = detail::in_units<Kernel, 1 << 24>;
 static_assert(kernel<fast<gaussian<4>>> && kernel_is_sound<fast<gaussian<4>>>());
 static_assert(detail::is_box<box<2>> && !detail::is_box<test::spread> && !detail::is_box<tent<1>>);
 static_assert(fast<tent<3>>::weights == tent<3>::weights && fast<tent<3>>::total == 16);
+static_assert(fast_total<box<4096>> == 1 << 24); // compilers count what they compute
 
 TEST_CASE_TEMPLATE("fast, bytes are filtered by weights of eight bits, and by the kernel itself where that is as quick or too wide",
                    Texel, rg8, rgba8) {

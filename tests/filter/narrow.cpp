@@ -40,6 +40,18 @@ TEST_CASE_TEMPLATE("a narrow filter rounds columns to texels, and rows of those 
     holds.template operator()<gaussian<4>>();
 }
 
+TEST_CASE("a narrow filter of floats, which leaves them as they are between the passes, is the fast one") {
+    test::dice roll(713);
+    const auto from = test::noise<rg32f>(roll, {41, 37}, 3);
+    const auto is_fast = [&]<typename Kernel>() {
+        const auto made = test::dense<fast<Kernel>>(from);
+        CHECK(test::differences(test::dense<narrow<Kernel>>(from), made) == 0);
+        CHECK(test::differences(in_lanes<narrow<Kernel>>(from), made) == 0);
+    };
+    is_fast.template operator()<tent<12>>(); // 169 is no power of two
+    is_fast.template operator()<gaussian<3>>();
+}
+
 TEST_CASE("a narrow filter of halves is within three roundings of the convolution") {
     test::dice roll(712);
     const auto from = test::noise<rg16f>(roll, {41, 37}, 3);

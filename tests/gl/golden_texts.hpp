@@ -57,6 +57,7 @@ inline std::vector<std::pair<std::string, std::string>> golden_texts() {
     filter.operator()<rg16f, narrow<tent<2>>>("rg16f_narrow_tent_2");
     filter.operator()<rg32f, narrow<tent<2>>>("rg32f_narrow_tent_2");
     filter.operator()<rg32f, fast<box<1>>>("rg32f_fast_box_1");
+    filter.operator()<rg32f, box<20>>("rg32f_box_20");
     return texts;
 }
 

@@ -61,6 +61,14 @@ namespace rows {
 #include "golden/rows_rgba32f_gaussian_2.glsl"
 }
 } // namespace rgba32f_gaussian
+namespace rg32f_box {
+namespace columns {
+#include "golden/columns_rg32f_box_20.glsl"
+}
+namespace rows {
+#include "golden/rows_rg32f_box_20.glsl"
+}
+} // namespace rg32f_box
 namespace tm8_tent {
 namespace columns {
 #include "golden/columns_tm8_tent_1.glsl"
@@ -218,6 +226,12 @@ TEST_CASE("halves are filtered in GLSL as by the fast filter, and leave nothing 
     compare<rg16f, tent<2>>(ONE_WORD(rg16f_tent));
 }
 TEST_CASE("floats are filtered in GLSL as by the fast filter") { compare<rgba32f, gaussian<2>>(ONE_WORD(rgba32f_gaussian)); }
+TEST_CASE("a wide box of floats has no table in GLSL, and the weights of the fast filter") {
+    static_assert(gl::detail::filter_in_gl<rg32f, box<20>>::alike == 8); // 2^24 is 16 more than a multiple of 41
+    static_assert(gl::detail::filter_in_gl<rg32f, tent<20>>::alike == -1);
+    static_assert(gl::detail::filter_in_gl<rg8, box<20>>::alike == 20 && gl::detail::filter_in_gl<rg8, gaussian<20>>::alike == -1);
+    compare<rg32f, box<20>>(ONE_WORD(rg32f_box));
+}
 TEST_CASE("a ratio of depth and mask is filtered in GLSL as by the scalar filter") { compare<tm8, tent<1>>(ONE_WORD(tm8_tent)); }
 TEST_CASE("a ratio of sums of two words is that of the scalar filter, bound and contribution with it") {
     compare<test::ratio_rgba8, gaussian<2>>(TWO_WORDS(tmba8_gaussian));

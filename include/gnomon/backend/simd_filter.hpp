@@ -21,14 +21,14 @@
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
 /// What lanes filter: premultiplied texels, and pairs of a ratio whose sums, of products of two codes, are exact in double; not by
-/// `narrow`, nor by what `fast` makes a single tap of in words.
+/// `narrow`, but floats, which it leaves as they are, nor by what `fast` makes a single tap of in words.
 template <kernel Kernel, texel_format Texel>
 inline constexpr bool filtered_in_lanes = [] {
     using by = detail::sums<Texel, Kernel>;
     constexpr double total = by::weights_of::total;
     constexpr bool exact = Texel::channels == 2 && Texel::linear_scale * total * total < 0x1p53;
-    constexpr bool known =
-        Kernel::radius <= 256 && !detail::is_narrow<Kernel> && !(by::stored_between && is_one_tap<typename by::weights_of>);
+    constexpr bool as_wide = !detail::is_narrow<Kernel> || std::same_as<typename Texel::channel_type, float32>;
+    constexpr bool known = Kernel::radius <= 256 && as_wide && !(by::stored_between && is_one_tap<typename by::weights_of>);
     return known && (Texel::representation_type::premultiplied || exact);
 }();
 

@@ -20,8 +20,8 @@ namespace gnomon::inline GNOMON_BUILD {
 ///     depth_ratio  in 16 bits weights of ten bits, up to R = 128, and then no error but the two roundings; in 8 bits the kernel as it is
 ///
 /// Weights are within one unit of the kernel's proportions, and these errors are against what such weights give: by those of the kernel
-/// as it is, bytes may come out a code or two otherwise, and 16-bit codes some more. e and m are weighed alike, so no false shadow
-/// comes of it. Everything else that a filter promises still holds, in every bit on every processor: clear stays clear, e <= m, and in
+/// as it is, bytes may come out a code or two otherwise, 16-bit codes some more, and floats by 2^-24 for each tap of a pass. e and m are
+/// weighed alike, so no false shadow comes of it. Everything else that a filter promises still holds, in every bit on every processor: clear stays clear, e <= m, and in
 /// unorm a uniform region stays itself. `filter_roundings` tells bias the rest.
 template <kernel Kernel> struct fast {
     static_assert(

@@ -75,13 +75,24 @@ constexpr weights_of<Radius> apportion(const std::array<Number, static_cast<std:
         ++share[0];
         --left;
     }
-    for (; left > 0; left -= 2) {
-        std::size_t most = 1;
-        for (std::size_t i = 2; i <= Radius; ++i)
-            if (rest[i] > rest[most]) most = i;
-        ++share[most];
-        rest[most] = 0.0;
+    // The largest remainders get one more, of equal ones the inner ones: all above `high`, and of those above `low` as many as are left.
+    // Remainders of whole numbers lie 2^-16 apart.
+    constexpr int halvings = std::integral<Number> ? 18 : 40;
+    double low = 0.0, high = 1.0;
+    for (int k = 0; k < halvings && left > 0; ++k) {
+        const double middle = (low + high) / 2.0;
+        int above = 0;
+        for (std::size_t i = 1; i <= Radius; ++i) above += rest[i] > middle ? 2 : 0;
+        (above <= left ? high : low) = middle;
+        if (above == left) break;
     }
+    for (const double bound : {high, low})
+        for (std::size_t i = 1; i <= Radius && left > 0; ++i)
+            if (rest[i] > bound) {
+                ++share[i];
+                left -= 2;
+                rest[i] = 0.0;
+            }
     weights_of<Radius> w{};
     for (std::size_t i = 0; i <= Radius; ++i) w[Radius + i] = w[Radius - i] = share[i];
     return w;

@@ -5,6 +5,7 @@
 #include <gnomon/gl/shader_caster.hpp>
 #include <gnomon/gl/shader_exact.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <string>
@@ -35,8 +36,18 @@ template <texel_format Texel, kernel Kernel> struct filter_in_gl {
     static constexpr std::uint64_t whole = by::stored_between ? total : total * total;
     static constexpr bool two_words = whole_codes && most * whole + whole / 2 > 0xFFFFFFFFu; ///< a sum of the second pass
     static constexpr bool narrow = gnomon::detail::is_narrow<Kernel>;
-    /// Small kernels are written out, tap by tap; larger ones are loops over a table of weights.
+    /// Small kernels are written out, tap by tap; larger ones are loops over a table of weights, but boxes.
     static constexpr bool written_out = Kernel::radius <= 16;
+    /// How far from the centre taps have one weight, if all beyond have one too: so have those of a box. Else -1.
+    static constexpr int alike = [] {
+        constexpr int first = lesser(Kernel::radius, whole_codes ? 0 : 1); // the centre of floats is not in the loop
+        const auto at = [](int away) { return weights_of::weights[static_cast<std::size_t>(Kernel::radius + away)]; };
+        int last = first;
+        while (last < Kernel::radius && at(last + 1) == at(first)) ++last;
+        for (int away = last + 1; away <= Kernel::radius; ++away)
+            if (at(away) != at(Kernel::radius)) return -1;
+        return last;
+    }();
     static_assert(
         !whole_codes || most * total <= 0xFFFFFFFFu,
         "gnomon: sums of this texel and kernel do not fit the scratch of GL; tm16 is for the CPU, in GL take tm8 or rg16");
@@ -79,14 +90,17 @@ template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string taps_text
             text += "    gnomon_add(" + weight(Kernel::radius + away) + ", " + literal(away) + ");\n";
         return text;
     }
-    return text + "    for (int away = " + first + "; away <= " + last + "; ++away) gnomon_add(" +
-           (gnomon::detail::is_box<typename of::weights_of> ? weight(0) : "gnomon_weights[abs(away)]") + ", away);\n";
+    const std::string inner = weight(Kernel::radius + lesser(Kernel::radius, 1)), outer = weight(0);
+    const std::string each = of::alike < 0                 ? "gnomon_weights[abs(away)]"
+                             : of::alike == Kernel::radius ? outer
+                                                           : "abs(away) <= " + literal(of::alike) + " ? " + inner + " : " + outer;
+    return text + "    for (int away = " + first + "; away <= " + last + "; ++away) gnomon_add(" + each + ", away);\n";
 }
 
 /// The weights from the centre outwards, if taps_text needs a table.
 template <texel_format Texel, kernel Kernel> [[nodiscard]] std::string weights_text() {
     using of = filter_in_gl<Texel, Kernel>;
-    if (of::written_out || gnomon::detail::is_box<typename of::weights_of>) return "";
+    if (of::written_out || of::alike >= 0) return "";
     const std::string array = (of::whole_codes ? "uint[" : "float[") + literal(Kernel::radius + 1) + "]";
     std::string text = "\nconst " + array + " gnomon_weights = " + array + "(";
     for (int i = 0; i <= Kernel::radius; ++i) {
