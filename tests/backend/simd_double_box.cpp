@@ -55,14 +55,15 @@ bool runs(image_view<const Texel> from, image_view<Texel> to, texel_rect region)
 }
 } // namespace
 
-TEST_CASE("sums run in doubles for boxes of words, half and float of radius 8 to 256, summed exactly") {
+TEST_CASE("sums run in doubles for boxes of words, ratios, half and float of radius 8 to 256, summed exactly") {
     using gnomon::on_any::runs_in_doubles;
     CHECK(
         (runs_in_doubles<box<8>, rg32f> && runs_in_doubles<box<256>, gnomon::rgba16f> && runs_in_doubles<box<9>, test::paper16f>));
     CHECK((runs_in_doubles<gnomon::fast<box<256>>, rg16> && simd<>::sums_run<box<110>, rg16> && simd<>::sums_run<box<256>, rg16>));
     CHECK_FALSE((runs_in_doubles<box<7>, rg32f> || runs_in_doubles<box<257>, rg32f> || runs_in_doubles<box<257>, rg16>));
+    CHECK((simd<>::sums_run<box<8>, gnomon::tm8> && simd<>::sums_run<gnomon::fast<box<256>>, gnomon::tm16>));
     CHECK_FALSE((runs_in_doubles<gnomon::fast<box<8>>, rg32f> || runs_in_doubles<gnomon::tent<8>, rg32f> ||
-                 runs_in_doubles<gnomon::narrow<box<130>>, rg16> || runs_in_doubles<box<9>, gnomon::tm16>));
+                 runs_in_doubles<gnomon::narrow<box<130>>, rg16> || simd<>::sums_run<box<8>, test::ratio_rgba8>));
 }
 
 TEST_CASE_TEMPLATE(
@@ -80,8 +81,8 @@ TEST_CASE_TEMPLATE(
     });
 }
 
-TEST_CASE_TEMPLATE("boxes of half and float have the bits of the oracle, of the whole of a map and any part", Texel, rg32f,
-                   gnomon::rg16f, gnomon::rgb32f, gnomon::rgba16f, test::paper16f) {
+TEST_CASE_TEMPLATE("boxes of half and float and of a ratio have the bits of the oracle, of the whole of a map and any part", Texel,
+                   rg32f, gnomon::rg16f, gnomon::rgb32f, gnomon::rgba16f, test::paper16f, gnomon::tm8, gnomon::tm16) {
     dice roll(441);
     const image<Texel> wide = casters<Texel>(roll, {700, 40}), small = casters<Texel>(roll, {9, 5});
     for_each_isa([&]<typename Isa>() {

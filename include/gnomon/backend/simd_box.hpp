@@ -46,7 +46,6 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
         for (int i = 0; i < step; ++i) all_[i] = 0;
     }
 
-    [[nodiscard]] static sum code(storage stored) noexcept { return stored; }
     [[nodiscard]] static bool is_summable(const storage*, int) noexcept { return true; }
 
     /// Adds a row to the sums of columns and takes one away.
@@ -135,10 +134,9 @@ bool filter_box(image_view<const Texel> from, image_view<Texel> to, texel_rect r
             return true;
         };
         // What a column of clear sums to; then row by row what is there in its place, but for the last row of the first window.
-        for (int i = 0; i < widest; ++i) {
-            const auto each = Box::code(channels_of(nothing)[i % channels]);
-            sums[i] = static_cast<typename Box::sum>(Kernel::total) * each;
-        }
+        using sum = typename Box::sum;
+        for (int i = 0; i < widest; ++i)
+            sums[i] = static_cast<sum>(Kernel::total) * Texel::clear().template linear<sum>(i % channels);
         for (int y = region.y0 - radius; y < region.y0 + radius; ++y)
             if (!step_to(y, channels_of(nothing))) return false;
         for (int y = region.y0; y < region.y1; ++y) {

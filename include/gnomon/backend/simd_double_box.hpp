@@ -1,6 +1,7 @@
-// gnomon: soft shadow maps. The box filter in lanes, second part: sums that run in doubles and round nothing, of half and float, and of
-// codes where 32 bits are not enough. Included by simd_box.hpp after simd_filter.hpp, and in its way.
+// gnomon: soft shadow maps. The box filter in lanes, second part: sums that run in doubles and round nothing, of half and float, of codes
+// where 32 bits are not enough, and of pairs of a ratio. Included by simd_box.hpp after simd_filter.hpp, and in its way.
 
+#include <gnomon/backend/lane_formats.hpp>
 #include <gnomon/filter/separable.hpp>
 #include <gnomon/simd/region.hpp>
 
@@ -13,10 +14,11 @@
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
 /// Equal weights. Multiples of 2^-24 in [0, 1] are all halves there, and what opaque casters at float depths are stored as. Of (2R+1)^2
-/// of them, or of codes, a double holds any sum, for R up to 256, and a line's 36 bits hold those of 2R+1: so sums may run, and have the
-/// bits of any other order.
+/// of them, or of codes, or products of two, a double holds any sum, for R up to 256, and a line's 36 bits hold those of 2R+1: so sums may
+/// run, and have the bits of any other order.
 template <typename Isa, kernel Kernel, texel_format Texel> struct double_box {
     using sum = double;
+    using wide = wide_filter<Isa, Kernel, Texel, double>; // the same arithmetic, tap by tap
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
     using ints = typename Isa::ints;
@@ -26,8 +28,6 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct double_box {
     static constexpr int taps = 2 * Kernel::radius + 1, margin = Kernel::radius * channels, window = taps * channels;
     static constexpr int strip = piece_bytes / 8 / channels * channels;
     static constexpr int line_size = window + strip + step;
-
-    [[nodiscard]] static sum code(storage stored) noexcept { return static_cast<double>(channel_type::code(stored)); }
 
     /// Is a row what sums may run over?
     [[nodiscard]] static bool is_summable(const storage* row, int count) noexcept {
@@ -71,23 +71,31 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct double_box {
     static void run(double* sums, const storage* in, const storage* out, int count) noexcept {
         int i = 0;
         for (; i + step <= count; i += step) {
-            const auto change =
-                Isa::subtract(Isa::template codes<channel_type>(in + i), Isa::template codes<channel_type>(out + i));
+            const auto change = Isa::subtract(wide::codes(in + i), wide::codes(out + i));
             Isa::store(sums + i, Isa::add(Isa::load(sums + i), change));
         }
-        for (; i < count; ++i) sums[i] += code(in[i]) - code(out[i]);
+        for (; i < count; ++i) sums[i] += linear(in, i) - linear(out, i);
     }
 
     /// A row of texels from the sums of columns, and a register more.
     void make(const double* sums, storage* to, int count) noexcept {
         slide(sums, count);
-        for (int i = 0; i < count; i += step) Isa::template store_codes<channel_type>(to + i, mean(Isa::load(all_ + i)));
+        for (int i = 0; i < count; i += step) {
+            if constexpr (Texel::representation_type::premultiplied)
+                Isa::template store_codes<channel_type>(to + i, mean(Isa::load(all_ + i)));
+            else
+                wide::store_ratios(all_ + i, to + i);
+        }
     }
 
   private:
+    /// A number of a row that begins with a whole texel, as it is filtered.
+    [[nodiscard]] static double linear(const storage* row, int i) noexcept {
+        return reinterpret_cast<const Texel*>(row)[i / channels].template linear<double>(i % channels);
+    }
     GNOMON_LANES doubles mean(const doubles& sum) noexcept {
         if constexpr (channel_type::whole_codes)
-            return wide_filter<Isa, Kernel, Texel, double>::quotient(sum);
+            return wide::quotient(sum);
         else
             return Isa::divide(sum, Isa::repeat(detail::sums<Texel, Kernel>::whole));
     }
@@ -117,12 +125,9 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct double_box {
 /// Can sums of this texel and kernel run in doubles, and is that quicker than tap by tap?
 template <kernel Kernel, texel_format Texel>
 inline constexpr bool runs_in_doubles = [] {
-    using channel_type = typename Texel::channel_type;
     using by = detail::sums<Texel, Kernel>;
-    constexpr bool codes = std::is_same_v<channel_type, unorm16> && !by::stored_between;
-    constexpr bool numbers = (std::is_same_v<channel_type, half16> || std::is_same_v<channel_type, float32>) && !by::in_floats;
-    return (codes || numbers) && Texel::representation_type::premultiplied && detail::is_box<typename by::weights_of> &&
-           Kernel::radius >= 8 && Kernel::radius <= 256;
+    return detail::channel_of_lanes<typename Texel::channel_type> && !by::stored_between && !by::in_floats &&
+           detail::is_box<typename by::weights_of> && Kernel::radius >= 8 && Kernel::radius <= 256;
 }();
 
 } // namespace gnomon::inline GNOMON_BUILD::GNOMON_ON

@@ -156,6 +156,16 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         return Isa::multiply(Isa::add(sum, Isa::repeat(static_cast<double>(by::whole / 2) + 0.25)), Isa::repeat(1.0 / whole));
     }
 
+    /// Pairs of a ratio, a register of sums.
+    static void store_ratios(const double* sums, storage* to) noexcept {
+        for (int k = 0; k < step; k += 2) {
+            const std::uint64_t linear[] = {static_cast<std::uint64_t>(sums[k]), static_cast<std::uint64_t>(sums[k + 1])};
+            const Texel made = Texel::from_linear(linear, by::whole);
+            to[k] = made.stored[0];
+            to[k + 1] = made.stored[1];
+        }
+    }
+
     GNOMON_LANES_VOID void row(const Number* line, int, storage* to) noexcept {
         constexpr auto whole = static_cast<Number>(by::whole);
         const Number* const centre = line + margin;
@@ -178,12 +188,7 @@ template <typename Isa, kernel Kernel, texel_format Texel, typename Number> stru
         } else if constexpr (!Texel::representation_type::premultiplied) {
             double sums[static_cast<std::size_t>(step)];
             Isa::store(sums, sum);
-            for (int k = 0; k < step; k += Texel::channels) {
-                const std::uint64_t linear[] = {static_cast<std::uint64_t>(sums[k]), static_cast<std::uint64_t>(sums[k + 1])};
-                const Texel made = Texel::from_linear(linear, by::whole);
-                to[k] = made.stored[0];
-                to[k + 1] = made.stored[1];
-            }
+            store_ratios(sums, to);
             return;
         } else if constexpr (channel_type::whole_codes) {
             sum = quotient(sum);
