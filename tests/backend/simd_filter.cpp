@@ -722,9 +722,12 @@ TEST_CASE("without room for a texel lanes do nothing, and say so") {
 TEST_CASE("lanes filter by radii up to 256, and ratios as far as their sums are exact in double") {
     using gnomon::on_any::filtered_in_lanes;
     CHECK((filtered_in_lanes<box<256>, rg8> && !filtered_in_lanes<box<257>, rg8>));
-    if constexpr (gnomon::detail::has_lanes<gnomon::best_isa>) // sums of a box run where lanes filter it
+    if constexpr (gnomon::detail::has_lanes<gnomon::best_isa>) { // a user may ask; and sums of a box run where lanes filter it
+        CHECK((simd<>::filters_in_lanes<gaussian<256>, rg8> && !simd<>::filters_in_lanes<gaussian<4>, gnomon::tm16>));
+        CHECK_FALSE(simd<>::filters_in_lanes<gaussian<4>, gnomon::texel<own_channel>>);
         CHECK((simd<>::sums_run<box<256>, rg8> && !simd<>::sums_run<box<257>, rg8> &&
                !simd<>::sums_run<gnomon::narrow<box<4>>, rg8>));
+    }
     CHECK((filtered_in_lanes<tent<37>, gnomon::tm16> && !filtered_in_lanes<tent<44>, gnomon::tm16>)); // 65535^2 38^4, 45^4
 }
 

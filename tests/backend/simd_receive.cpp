@@ -293,6 +293,10 @@ TEST_CASE("each register of receivers is answered once, by lanes") {
     CHECK(std::exchange(answers, 0) == 64 / 4);
 }
 
+static_assert(gnomon::decided_in_lanes<gnomon::rga16, std::uint8_t> && gnomon::decided_in_lanes<gnomon::rg16f, float>);
+static_assert(!gnomon::decided_in_lanes<gnomon::rg16f, std::uint8_t> && !gnomon::decided_in_lanes<gnomon::rgb8, float>);
+static_assert(gnomon::blended_in_lanes<gnomon::rg16, std::uint16_t> && !gnomon::blended_in_lanes<gnomon::rga16, float>);
+
 namespace {
 template <typename Texel, typename Depth, typename Intensity>
 using chosen = gnomon::on_any::decision_for<gnomon::emulated<16>, Texel, Depth, Intensity>;

@@ -158,6 +158,41 @@ TEST_CASE("fast, a float is the sum of the columns' sums, every number of it in 
     try_kernel.template operator()<test::spread, of_24_bits<test::spread>>();
 }
 
+TEST_CASE(
+    "fast, a number is within filter_deviation of what the kernel itself gives, beside its roundings, and half as far and more") {
+    dice roll(709);
+    const auto try_kernel = [&]<typename Texel, typename Kernel>() {
+        constexpr int radius = Kernel::radius;
+        constexpr auto scale = static_cast<long double>(Texel::channel_type::scale);
+        constexpr long double most = static_cast<long double>(filter_deviation<Texel, fast<Kernel>>) * scale;
+        constexpr long double rounding = filter_roundings<Texel, fast<Kernel>> / 2.0L;
+        const test::taps own = test::taps_of<typename detail::plan<Texel, fast<Kernel>>::weights_of>(), k = test::taps_of<Kernel>();
+        image<Texel> worst({2 * radius + 1, 2 * radius + 1}, Texel::clear()); // casters where fast weighs more
+        for_each_texel(whole(worst.size()), [&](int x, int y) {
+            const auto weight = [&](const test::taps& w) {
+                return static_cast<long double>(w.at(x - radius)) * w.at(y - radius) / w.total / w.total;
+            };
+            if (weight(own) > weight(k)) worst(x, y) = Texel::caster(0.0f);
+        });
+        const long double exact = test::convolved<long double>(worst, k, radius, radius, 1) / k.total / k.total;
+        const long double off = static_cast<long double>(test::dense<fast<Kernel>>(worst)(radius, radius).stored[1]) - exact;
+        CAPTURE(radius);
+        CAPTURE(scale);
+        CHECK(off <= most + rounding);
+        CHECK(off >= most / 2 - rounding);
+        const auto from = test::noise<Texel>(roll, {41, 37}, 3);
+        if constexpr (Texel::representation_type::premultiplied)
+            CHECK(worst_error(from, test::dense<fast<Kernel>>(from), k) <= most + rounding);
+    };
+    try_kernel.operator()<rg8, gaussian<2>>();
+    try_kernel.operator()<rg8, gaussian<16>>();
+    try_kernel.operator()<rg8, gaussian<32>>();
+    try_kernel.operator()<rg16, gaussian<16>>();
+    try_kernel.operator()<tm16, gaussian<8>>();
+    static_assert(filter_deviation<rg8, fast<binomial<4>>> <= 0.0 && filter_deviation<rg8, narrow<gaussian<4>>> <= 0.0);
+    static_assert(filter_deviation<rg32f, fast<gaussian<4>>> <= 0.0 && filter_deviation<rg32f, fast<tent<12>>> < 8 * 0x1p-24);
+}
+
 TEST_CASE_TEMPLATE("fast, a float is within its roundings of the convolution, and farther from it than an exact sum would be",
                    Texel, rg32f, rgba32f) {
     dice roll(704);

@@ -67,11 +67,23 @@ GNOMON_TARGET_BEGIN(GNOMON_AVX512)
 GNOMON_TARGET_END
 #endif
 
+namespace test {
+/// Lanes that know bytes alone.
+struct lanes_of_bytes : gnomon::emulated<16> {
+    template <typename Channel, int Channels>
+        requires std::same_as<Channel, gnomon::unorm8>
+    static floats codes_of(const std::uint8_t* stored, int index) noexcept;
+};
+} // namespace test
+
 namespace {
 using gnomon::cpu_level;
 using gnomon::simd_isa;
 
 static_assert(simd_isa<gnomon::emulated<16>> && simd_isa<gnomon::emulated<64>> && !simd_isa<int> && !simd_isa<gnomon::half16>);
+static_assert(gnomon::has_channel<test::lanes_of_bytes, gnomon::unorm8> &&
+              !gnomon::has_channel<test::lanes_of_bytes, gnomon::unorm16>);
+static_assert(!simd_isa<test::lanes_of_bytes>);
 #if GNOMON_X86
 static_assert(simd_isa<gnomon::sse2> && simd_isa<gnomon::avx2> && simd_isa<gnomon::avx512>);
 static_assert(gnomon::straddles<gnomon::avx512> && gnomon::sums_quads<gnomon::avx512>);

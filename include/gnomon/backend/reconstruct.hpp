@@ -125,7 +125,7 @@ void reconstruct(const Row& texels, const Depths& z, Intensities&& intensity, co
     const strided_span<const Depth> depths{strided_span(z)};
     const strided_span out(intensity);
     using Intensity = typename decltype(out)::element_type;
-    if constexpr (detail::has_lanes<Isa> && detail::decided_in_lanes<Texel, Intensity>)
+    if constexpr (detail::has_lanes<Isa> && decided_in_lanes<Texel, Intensity>)
         if (detail::in_lanes<Isa>([&]<typename Lanes>() { return detail::receive_on<Lanes>(row, depths, out, r), true; })) return;
     receive(row, depths, out, r);
 }
@@ -144,7 +144,7 @@ void reconstruct(image_view<T> map, strided_span<const float> x, strided_span<co
     const strided_span<const Depth> depths{strided_span(z)};
     const strided_span out(intensity);
     using Intensity = typename decltype(out)::element_type;
-    if constexpr (detail::has_lanes<Isa> && detail::blended_in_lanes<Texel, Intensity>)
+    if constexpr (detail::has_lanes<Isa> && blended_in_lanes<Texel, Intensity>)
         if (detail::blended_on(texels, r) && detail::in_lanes<Isa>([&]<typename Lanes>() {
                 return detail::receive_points_on<Lanes>(texels, x, y, depths, out, r), true;
             }))

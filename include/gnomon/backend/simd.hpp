@@ -64,17 +64,19 @@ template <typename Isa = best_isa> struct simd {
                   "gnomon: simd<Isa> takes sse2, avx2, avx512, neon, wasm128, emulated<Bytes> or lanes of your own that model "
                   "simd_isa; simd<> takes the best there are");
 
+    /// Does this filter go in lanes, where rows are as long as a register? For a static_assert: `scalar` takes ten times as long.
+    template <kernel Kernel, texel_format Texel>
+    static constexpr bool filters_in_lanes = detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
+                                             on_any::filtered_in_lanes<Kernel, Texel>;
     /// Is this a box whose sums run, so that its time does not know its radius? Parts of a map are weighed by that.
     template <kernel Kernel, texel_format Texel>
-    static constexpr bool sums_run =
-        detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> && on_any::sums_of_box_run<Kernel, Texel>;
+    static constexpr bool sums_run = filters_in_lanes<Kernel, Texel> && on_any::sums_of_box_run<Kernel, Texel>;
 
     template <texel_format Texel, kernel Kernel>
     void filter_region(std::type_identity_t<image_view<const Texel>> from, image_view<Texel> to, texel_rect region,
                        filter_scratch<Texel, Kernel>& scratch) const noexcept {
         static_assert(kernel_is_sound<Kernel>());
-        if constexpr (detail::has_lanes<Isa> && detail::channel_of_lanes<typename Texel::channel_type> &&
-                      on_any::filtered_in_lanes<Kernel, Texel>) {
+        if constexpr (filters_in_lanes<Kernel, Texel>) {
             const texel_rect part = clip(clip(region, to.size()), from.size());
             const auto filtered_by = [&]<typename Lanes>() {
                 return detail::filter_on<Lanes, Kernel>(from, to, part, scratch.line());

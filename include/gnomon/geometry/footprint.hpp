@@ -66,7 +66,7 @@ inline constexpr double enormous = 1e30;
     if (box.empty() || !light.valid()) return {};
     const bounding_box solid{detail::finite(box.lower), detail::finite(box.upper)};
     glm::dvec4 corners[8];
-    for (int i = 0; i < 8; ++i) corners[i] = light.matrix() * glm::dvec4(solid.corner(i), 1.0);
+    for (int i = 0; i < 8; ++i) corners[i] = detail::product(light.matrix(), glm::dvec4(solid.corner(i), 1.0));
 
     const auto visible = [&light](const glm::dvec4& h) { return !light.perspective() || h.z >= 0.0; };
     const auto cut = [&light](const glm::dvec4& in, const glm::dvec4& out) {
@@ -96,7 +96,7 @@ inline constexpr double enormous = 1e30;
     if (ball.empty() || !light.valid()) return {};
     if (ball.radius > detail::enormous) return detail::all_of(light.size());
     const double r = ball.radius;
-    const glm::dvec4 centre(detail::finite(ball.centre), 1.0), h = light.matrix() * centre;
+    const glm::dvec4 centre(detail::finite(ball.centre), 1.0), h = detail::product(light.matrix(), centre);
     const glm::dvec3 x(detail::row(light.matrix(), 0)), y(detail::row(light.matrix(), 1)), z(detail::row(light.matrix(), 2)),
         w(detail::row(light.matrix(), 3));
     const double reach = r * glm::length(z);

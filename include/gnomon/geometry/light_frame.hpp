@@ -51,7 +51,10 @@ namespace detail {
     return {a.x, b.x, c.x, d.x, a.y, b.y, c.y, d.y, a.z, b.z, c.z, d.z, a.w, b.w, c.w, d.w};
 }
 
-/// a * b. GLM's own is too long for compilers to inline, and its name would not tell a file's flags, as <gnomon/build.hpp> wants it.
+/// a * b. GLM's own are too long for compilers to inline, and their names would not tell a file's flags, as <gnomon/build.hpp> wants it.
+[[nodiscard]] inline glm::dvec4 product(const glm::dmat4& a, const glm::dvec4& b) noexcept {
+    return (a[0] * b.x + a[1] * b.y) + (a[2] * b.z + a[3] * b.w);
+}
 [[nodiscard]] inline glm::dmat4 product(const glm::dmat4& a, const glm::dmat4& b) noexcept {
     const auto column = [&a](const glm::dvec4& v) { return a[0] * v.x + a[1] * v.y + a[2] * v.z + a[3] * v.w; };
     return {column(b[0]), column(b[1]), column(b[2]), column(b[3])};
@@ -115,7 +118,7 @@ class light_frame {
 
     /// Where a world position falls on the map. Not clipped: the result may be off the map, nearer than 0 or beyond 1.
     [[nodiscard]] map_point to_map(const glm::dvec3& world) const noexcept {
-        const glm::dvec4 h = matrix_ * glm::dvec4(world, 1.0);
+        const glm::dvec4 h = detail::product(matrix_, glm::dvec4(world, 1.0));
         if (!(h.w > 0.0)) return {};
         return {h.x / h.w, h.y / h.w, h.z};
     }

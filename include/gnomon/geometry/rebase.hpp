@@ -91,7 +91,7 @@ class rebased_frame {
     /// About an origin of your own, such as the one that a whole scene was rebased to.
     rebased_frame(const light_frame& light, const glm::dvec3& origin) noexcept : origin_(origin) {
         glm::dmat4 m = light.matrix();
-        m[3] = m * glm::dvec4(origin, 1.0);
+        m[3] = detail::product(m, glm::dvec4(origin, 1.0));
         matrix_ = glm::mat4(m);
     }
 

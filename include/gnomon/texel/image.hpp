@@ -21,8 +21,9 @@ template <typename T> class strided_span {
     constexpr strided_span() noexcept = default;
     constexpr strided_span(T* data, int size, std::ptrdiff_t stride = sizeof(T)) noexcept
         : data_(data), size_(size > 0 ? size : 0), stride_(stride) {
-        GNOMON_ASSERT(stride % static_cast<std::ptrdiff_t>(alignof(T)) == 0,
-                      "gnomon: the elements of a strided_span must stay aligned: its stride is in bytes");
+        GNOMON_ASSERT(stride % static_cast<std::ptrdiff_t>(alignof(T)) == 0 &&
+                          (std::is_constant_evaluated() || reinterpret_cast<std::uintptr_t>(data) % alignof(T) == 0),
+                      "gnomon: the elements of a strided_span must be aligned, and stay so: its stride is in bytes");
     }
     template <std::size_t N> constexpr strided_span(T (&array)[N]) noexcept : strided_span(array, static_cast<int>(N)) {}
     /// From any contiguous range: std::span, std::vector, std::array.
