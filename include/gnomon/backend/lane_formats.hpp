@@ -37,8 +37,8 @@ template <texel_format Texel> [[nodiscard]] bool blended_on(image_view<const Tex
 
 } // namespace detail
 
-/// Are rows of these texels decided in lanes, if there are any? Whole codes are, with a contribution too; of half and float pairs with float
-/// intensities. For a static_assert: all else has the same results at a tenth of the speed.
+/// Are rows of these texels decided in lanes, if there are any? Whole codes are, with a contribution too; of half and float pairs with
+/// float intensities. For a static_assert: all else has the same results at a tenth of the speed.
 template <texel_format Texel, typename Intensity>
 inline constexpr bool decided_in_lanes =
     detail::channel_of_lanes<typename Texel::channel_type> && detail::decidable_pairs<Texel> &&

@@ -54,9 +54,10 @@ bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect re
 /// of a NaN in half or float texels only that it is one, and but for half and float pairs of e <= -2^24 m, which no caster is, before
 /// receivers beyond 2^24.
 ///
-/// What lanes do not know is left to `scalar`: channels of a user's, `narrow` kernels, radii beyond 256, maps narrower than a register or
-/// wider than 2^31 channels with what kernels reach beyond, and of ratios far bounds, contributions and what is not exact in double; of
-/// decisions see backend/reconstruct.hpp. Too narrow a scratch only cuts a region into strips. A filter takes up to 48 kB of the stack.
+/// What lanes do not know is left to `scalar`: channels of a user's, `narrow` kernels but of floats, radii beyond 256, maps
+/// narrower than a register or wider than 2^31 channels with what kernels reach beyond, and of ratios far bounds, contributions and
+/// what is not exact in double; of decisions see backend/reconstruct.hpp. Too narrow a scratch only cuts a region into strips. A
+/// filter takes up to 48 kB of the stack.
 /// \pre the processor has the lanes that are named: ask best_lanes(). Without asserts all is left to `scalar` if it has not. simd<>
 /// has no such condition.
 template <typename Isa = best_isa> struct simd {

@@ -20,9 +20,10 @@ namespace gnomon::inline GNOMON_BUILD {
 ///                  R+2 times a pass
 ///     depth_ratio  in 16 bits weights of ten bits, up to R = 128, and then no error but the two roundings; in 8 bits the kernel as it is
 ///
-/// Weights are within one unit of the kernel's proportions, and these errors are against what such weights give; how far that may be from
-/// what the kernel itself gives, `filter_deviation` tells. e and m are weighed alike, so no false shadow comes of it. Everything else that a filter promises still holds, in every bit on every processor: clear stays clear, e <= m, and in
-/// unorm a uniform region stays itself. `filter_roundings` tells bias the rest.
+/// Weights are within one unit of the kernel's proportions, and these errors are against what such weights give; how far that may
+/// be from what the kernel itself gives, `filter_deviation` tells. e and m are weighed alike, so no false shadow comes of it.
+/// Everything else that a filter promises still holds, in every bit on every processor: clear stays clear, e <= m, and in unorm a
+/// uniform region stays itself. `filter_roundings` tells bias the rest.
 template <kernel Kernel> struct fast {
     static_assert(
         !requires { typename Kernel::within; }, "gnomon: fast<narrow<Kernel>>: narrow says how already; take one of the two");
