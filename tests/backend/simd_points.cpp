@@ -331,7 +331,7 @@ bool told_of_least_mask(float beyond) {
 } // namespace
 
 TEST_CASE("a blend is decided but nearest nothing: words within 2^-32 of a code, bytes that more than one rounding moves within an "
-          "8192nd; against depths in codes it always is") {
+          "8192nd, and always against depths in codes") {
     for (const double mask : {65535.0, 4097.0, 2.0}) {
         CHECK_FALSE(told<rg16, float>(mask, 0.0, gnomon::unbiased));
         for (const double sign : {-1.0, 1.0}) CHECK(told<rg16, float>(mask, sign * 0x1p-16, gnomon::unbiased));
