@@ -158,9 +158,9 @@ TEST_CASE("what is left over after pairs goes to the centre, and the rest to the
     CHECK(gnomon::detail::apportion<1>(third) == std::array{21845, 21846, 21845});
     const std::array fifth{1.0, 0.9, 1.1}; // 13107.2, 11796.48, 14417.92: three units are left
     CHECK(gnomon::detail::apportion<2>(fifth) == std::array{14418, 11796, 13108, 11796, 14418});
-    const std::array eleventh{1.0, 1.0, 1.0, 1.0, 1.0, 1.0}; // 5957.8 each: nine are left, for the centre and four pairs of five
     const std::array falling{26, 25, 24, 23, 22}; // of 256: 31.10, 29.91, 28.71, 27.51, 26.32; five are left, for two pairs of four
     CHECK(gnomon::detail::apportion<4, 256>(falling) == std::array{26, 27, 29, 30, 32, 30, 29, 27, 26});
+    const std::array eleventh{1.0, 1.0, 1.0, 1.0, 1.0, 1.0}; // 5957.8 each: nine are left, for the centre and four pairs of five
     CHECK(gnomon::detail::apportion<5>(eleventh) == std::array{5957, 5958, 5958, 5958, 5958, 5958, 5958, 5958, 5958, 5958, 5957});
 }
 

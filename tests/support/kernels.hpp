@@ -17,8 +17,11 @@ struct taps {
 
     int at(int i) const { return weights[static_cast<std::size_t>(radius + i)]; }
 };
+/// Of weights that no user may bring: their sum may be larger.
+template <gnomon::kernel K> taps taps_of_any() { return {K::radius, K::total, {K::weights.begin(), K::weights.end()}}; }
 template <gnomon::kernel K> taps taps_of() {
-    return {K::radius, K::total, {K::weights.begin(), K::weights.end()}};
+    static_assert(gnomon::kernel_is_sound<K>());
+    return taps_of_any<K>();
 }
 
 template <gnomon::kernel... Kernels> struct kernels {};

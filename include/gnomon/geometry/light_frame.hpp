@@ -51,7 +51,8 @@ namespace detail {
     return {a.x, b.x, c.x, d.x, a.y, b.y, c.y, d.y, a.z, b.z, c.z, d.z, a.w, b.w, c.w, d.w};
 }
 
-/// a * b. GLM's own are too long for compilers to inline, and their names would not tell a file's flags, as <gnomon/build.hpp> wants it.
+/// a * b, each summed in GLM's order. GLM's own are too long for compilers to inline, and their names would not tell a file's flags, as
+/// <gnomon/build.hpp> wants it.
 [[nodiscard]] inline glm::dvec4 product(const glm::dmat4& a, const glm::dvec4& b) noexcept {
     return (a[0] * b.x + a[1] * b.y) + (a[2] * b.z + a[3] * b.w);
 }
