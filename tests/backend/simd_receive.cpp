@@ -34,7 +34,7 @@ using test::for_each_isa;
 
 TEST_CASE_TEMPLATE(
     "lanes decide as the oracle does: every width to 67 and some beyond, any stride, any rule, and depths that are none", Texel,
-    rg8, gnomon::rg16, gnomon::rga8, gnomon::rga16, gnomon::rg32f, gnomon::rga16f, gnomon::rga32f, test::paper8, gnomon::rgb8) {
+    rg8, gnomon::rg16, gnomon::rga8, gnomon::rga16, gnomon::rg32f, gnomon::rga16f, gnomon::rga32f, gnomon::rgb8) {
     dice roll(404);
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const float odd_depths[] = {0.0f,      -0.0f,     1.0f,     0.5f,      std::nextafter(0.5f, 0.0f),
@@ -293,8 +293,6 @@ TEST_CASE("each register of receivers is answered once, by lanes") {
     CHECK(std::exchange(answers, 0) == 64 / 4);
 }
 
-static_assert(gnomon::decided_in_lanes<gnomon::rga16, std::uint8_t> && gnomon::decided_in_lanes<gnomon::rg16f, float>);
-static_assert(!gnomon::decided_in_lanes<gnomon::rg16f, std::uint8_t> && !gnomon::decided_in_lanes<gnomon::rgb8, float>);
 static_assert(gnomon::blended_in_lanes<gnomon::rg16, std::uint16_t> && !gnomon::blended_in_lanes<gnomon::rga16, float>);
 
 namespace {

@@ -15,14 +15,10 @@ template <typename Channel>
 concept channel_of_lanes = std::same_as<Channel, unorm8> || std::same_as<Channel, unorm16> || std::same_as<Channel, half16> ||
                            std::same_as<Channel, float32>;
 
-/// Premultiplied pairs that no receiver bounds, with a contribution or without.
-template <texel_format Texel>
-inline constexpr bool decidable_pairs = !Texel::effects.far_bound && std::same_as<typename Texel::representation_type, depth_mask>;
-
-/// Pairs of two numbers of a channel; and of two bytes.
+/// Premultiplied pairs of two numbers of a channel; and of two bytes.
 template <texel_format Texel, typename Channel>
-inline constexpr bool pairs_of =
-    decidable_pairs<Texel> && Texel::channels == 2 && std::same_as<typename Texel::channel_type, Channel>;
+inline constexpr bool pairs_of = std::same_as<typename Texel::representation_type, depth_mask> && Texel::channels == 2 &&
+                                 std::same_as<typename Texel::channel_type, Channel>;
 template <texel_format Texel> inline constexpr bool byte_pairs = pairs_of<Texel, unorm8>;
 
 /// Do lanes blend on a map, for a rule? Offsets are of 32 bits, a row has two texels for a load, and so many roundings move a pair by less
@@ -37,15 +33,18 @@ template <texel_format Texel> [[nodiscard]] bool blended_on(image_view<const Tex
 
 } // namespace detail
 
-/// Are rows of these texels decided in lanes, if there are any? Whole codes are, with a contribution too; of half and float pairs with
-/// float intensities. For a static_assert: all else has the same results at a tenth of the speed.
-template <texel_format Texel, typename Intensity>
+/// Are rows of these texels decided in lanes, if there are any? A depth_mask is, whatever its effects; a depth_ratio without a far bound;
+/// neither of a channel of a user's. For a static_assert: all else has the same results at a tenth of the speed.
+template <texel_format Texel>
 inline constexpr bool decided_in_lanes =
-    detail::channel_of_lanes<typename Texel::channel_type> && detail::decidable_pairs<Texel> &&
-    (Texel::channel_type::whole_codes || (Texel::channels == 2 && std::same_as<Intensity, float>));
+    detail::channel_of_lanes<typename Texel::channel_type> &&
+    (std::same_as<typename Texel::representation_type, depth_mask> ||
+     (std::same_as<typename Texel::representation_type, depth_ratio> && !Texel::effects.far_bound));
 
-/// And receivers anywhere, on maps of 2 to 2^21 texels a side?
+/// And receivers anywhere, on maps of 2 to 2^21 texels a side? Premultiplied pairs are, of half and float with float intensities.
 template <texel_format Texel, typename Intensity>
-inline constexpr bool blended_in_lanes = decided_in_lanes<Texel, Intensity> && Texel::channels == 2;
+inline constexpr bool blended_in_lanes =
+    detail::pairs_of<Texel, unorm8> || detail::pairs_of<Texel, unorm16> ||
+    (std::same_as<Intensity, float> && (detail::pairs_of<Texel, half16> || detail::pairs_of<Texel, float32>));
 
 } // namespace gnomon::inline GNOMON_BUILD

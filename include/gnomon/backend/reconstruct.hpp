@@ -113,9 +113,8 @@ template <typename Isa, typename F> bool in_lanes(F&& f) noexcept {
 /// for half and float pairs of e <= -2^24 m, which no caster is, before receivers beyond 2^24. Rows of any stride, in place too, as in
 /// receive/receive.hpp.
 ///
-/// In lanes go depth_mask pairs: unorm8 and unorm16, with a contribution too, with depths and intensities of any kind; half and float,
-/// without one, with float intensities. Far bounds, the other representations and channels of a user's go by the scalar loop, and all on a
-/// big-endian processor.
+/// In lanes goes a depth_mask with any effects, and a depth_ratio without a far bound, with depths and intensities of any kind. The paper's
+/// pair and channels of a user's go by the scalar loop, and all on a big-endian processor.
 /// \pre the processor has the lanes that are named: ask best_lanes(). Without asserts the scalar loop does it if it has not.
 template <typename Isa = best_isa, texel_row Row, depth_row Depths, intensity_row Intensities>
 void reconstruct(const Row& texels, const Depths& z, Intensities&& intensity, const rule& r = {}) noexcept {
@@ -124,8 +123,7 @@ void reconstruct(const Row& texels, const Depths& z, Intensities&& intensity, co
     const strided_span<const Texel> row{strided_span(texels)};
     const strided_span<const Depth> depths{strided_span(z)};
     const strided_span out(intensity);
-    using Intensity = typename decltype(out)::element_type;
-    if constexpr (detail::has_lanes<Isa> && decided_in_lanes<Texel, Intensity>)
+    if constexpr (detail::has_lanes<Isa> && decided_in_lanes<Texel>)
         if (detail::in_lanes<Isa>([&]<typename Lanes>() { return detail::receive_on<Lanes>(row, depths, out, r), true; })) return;
     receive(row, depths, out, r);
 }

@@ -1,5 +1,5 @@
-// gnomon: soft shadow maps. The decision in lanes, second part: pairs and depths in codes, by whole numbers of 16 bits. Included by
-// simd_receive.hpp after simd_decision.hpp, and in its way.
+// gnomon: soft shadow maps. The decision in lanes, third part: pairs and depths in codes, by whole numbers of 16 bits. Included by
+// simd_receive.hpp after simd_rows.hpp, and in its way.
 
 #include <gnomon/receive/receive.hpp>
 #include <gnomon/simd/region.hpp>

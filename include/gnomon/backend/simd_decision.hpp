@@ -1,5 +1,5 @@
-// gnomon: soft shadow maps. The decision in lanes, first part: by floats, of any pair and depth. Included by simd_receive.hpp, and in its
-// way.
+// gnomon: soft shadow maps. The decision in lanes, first part: who lies behind a surface, by floats, of any pair and depth. Included by
+// simd_receive.hpp, and in its way.
 
 #include <gnomon/receive/receive.hpp>
 #include <gnomon/simd/region.hpp>
@@ -53,32 +53,35 @@ GNOMON_INLINE void settle_doubt(const typename Isa::masks& in_doubt, const typen
     positive = Isa::both(positive, Isa::greater(Isa::add(others, asked), Isa::repeat(0.0f)));
 }
 
-/// One register of receivers at a time. A receiver is shadowed iff e > m (1-z), see receive/decide.hpp: of a biased pair and depth, the
-/// sign of a product and a sum, exact wherever one of the functions below says that it is. What is left goes by the scalar loop:
+/// Who lies behind the surface that a pair holds, a caster or a far bound: e > m (1-z), see receive/decide.hpp. Of a biased pair and depth
+/// the sign of a product and a sum, exact wherever one of the functions below says that it is. What is left goes by the scalar loop:
 ///
 ///     float depths      of unorm nothing; of half and float m <= 2^-50, and z that is moved towards the light by more than the range,
 ///                       or lies within 2^-50 of nothing when it has been moved by less than 2^-26
 ///     depths in codes   of unorm nothing; of half and float one receiver in a million, or all that lie exactly where their shadow begins,
 ///                       m <= 2^-50, and in float m > 2^100
-template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct decision {
+///
+/// A depth_ratio is a pair whose m is full.
+template <typename Isa, texel_format Texel, typename Depth> struct surface {
     using channel_type = typename Texel::channel_type;
-    using storage = typename Texel::storage;
     using ints = typename Isa::ints;
     using floats = typename Isa::floats;
     using masks = typename Isa::masks;
-    static constexpr int step = Isa::float_lanes;
     static constexpr bool whole_codes = channel_type::whole_codes;
 
     floats depth_less, depth_share, mask_more, mask_share, nearer; ///< the bias
     floats before;                                                 ///< a depth in codes there, once moved, is lit
     floats least_mask;                                             ///< what float decides of
     bool next_to_nothing; ///< may a float depth be, once moved? Then it tells where e = m, and the scalar loop sees to it.
-    const rule* by_rule;
 
-    [[nodiscard]] static decision of(const rule& r) noexcept {
-        const auto steps = bias_steps<Texel>::of(r.caster);
+    struct pair {
+        floats e, m;
+    };
+
+    [[nodiscard]] static surface of(const bias& b) noexcept {
+        const auto steps = bias_steps<Texel>::of(b);
         constexpr float nothing = std::numeric_limits<float>::infinity();
-        const float moved = std::same_as<Depth, float> ? steps.nearer : static_cast<float>(codes_towards_light<Texel>(r.caster));
+        const float moved = std::same_as<Depth, float> ? steps.nearer : static_cast<float>(codes_towards_light<Texel>(b));
         return {Isa::repeat(static_cast<float>(steps.depth_less)),
                 Isa::repeat(static_cast<float>(steps.depth_share)),
                 Isa::repeat(static_cast<float>(steps.mask_more)),
@@ -86,114 +89,78 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                 Isa::repeat(moved),
                 Isa::repeat(greater(0.0f, -moved)),
                 Isa::repeat(whole_codes ? 0.0f : (moved > 1.0f && std::same_as<Depth, float> ? nothing : 0x1p-50f)),
-                moved < 0x1p-26f && moved > -0x1p-26f, // beyond, what is left of a difference is more
-                &r};
+                moved < 0x1p-26f && moved > -0x1p-26f}; // beyond, what is left of a difference is more
     }
 
-    GNOMON_LANES floats codes(const storage* texels, int index) noexcept {
-        return Isa::template codes_of<channel_type, Texel::channels>(texels, index);
+    /// a share, rounded before anything is added, which g++ would fuse with it from -O2 on.
+    GNOMON_LANES floats times(const floats& a, const floats& share) noexcept {
+        floats product = Isa::multiply(a, share);
+        Isa::settle(product);
+        return product;
     }
-    /// a share, as `apply` has it: rounded before anything is added, which g++ would fuse with it from -O2 on.
-    GNOMON_LANES floats moved(const floats& a, const floats& share) noexcept {
-        if constexpr (whole_codes) {
-            return a; // the share is 1
-        } else {
-            floats product = Isa::multiply(a, share);
-            Isa::settle(product);
-            return product;
-        }
+    /// As `apply` has them. In float what a bias adds is 2^-149, which moves no mask above 2^-50, and of depths beside such a mask the sign
+    /// of the least; so it is added last, and not to empty texels: of what is denormal a product takes ten times as long.
+    GNOMON_LANES pair moved(const surface& by, const floats& depth, const floats& mask, const masks& there) noexcept {
+        if constexpr (!Texel::representation_type::premultiplied)
+            return {depth, Isa::repeat(channel_type::scale)}; // which is not biased
+        else if constexpr (whole_codes)                       // the shares are 1
+            return {Isa::subtract(depth, by.depth_less), Isa::add(mask, by.mask_more)};
+        else if constexpr (std::same_as<channel_type, float32>)
+            return {Isa::subtract(times(depth, by.depth_share), Isa::keep(there, by.depth_less)), times(mask, by.mask_share)};
+        else
+            return {times(Isa::subtract(depth, by.depth_less), by.depth_share), times(Isa::add(mask, by.mask_more), by.mask_share)};
     }
 
     /// m z + (e-m) > 0. Codes, and the halves they are biased by, keep e-m exact, and the product is asked for its sign.
-    GNOMON_LANES masks decided_codes(const decision& by, const floats& e, const floats& m, const float* depths) noexcept {
-        const floats depth = Isa::load(depths), rest = Isa::subtract(e, m);
+    GNOMON_LANES masks by_codes(const surface& by, const pair& of, const floats& depth) noexcept {
+        const floats rest = Isa::subtract(of.e, of.m);
         // Doubled they are whole, and times the least depth there is still something.
-        const masks behind = Isa::positive(Isa::add(m, m), Isa::subtract(depth, by.nearer), Isa::add(rest, rest));
-        return may_be_shadowed<Isa>(behind, depth, by.by_rule->lit_beyond);
+        return Isa::positive(Isa::add(of.m, of.m), Isa::subtract(depth, by.nearer), Isa::add(rest, rest));
     }
     /// For z < 1/2 the same: e-m is exact if m/2 <= e <= 2m, and if e is less, m z < m/2 is less than m-e either way, if more, all from
     /// z = -1 on are shadowed. Else m (z-1) + e > 0, where z-1 is exact up to 2^24, and beyond that everything is behind every caster
     /// but those of e <= -2^24 m.
-    GNOMON_LANES bool decided_floats(const decision& by, const floats& e, const floats& m, const masks& there, const float* depths,
-                                     masks& shadowed) noexcept {
-        const floats depth = Isa::load(depths), zero = Isa::repeat(0.0f), half = Isa::repeat(0.5f);
+    GNOMON_LANES bool by_floats(const surface& by, const pair& of, const masks& there, const floats& depth,
+                                masks& behind) noexcept {
+        const floats zero = Isa::repeat(0.0f), half = Isa::repeat(0.5f);
         const floats z = Isa::subtract(depth, by.nearer);
         const masks first_half = Isa::greater(half, z);
         const floats beyond = Isa::subtract(z, Isa::drop(first_half, Isa::repeat(1.0f)));
-        const floats rest = Isa::subtract(e, Isa::keep(first_half, m));
-        shadowed = may_be_shadowed<Isa>(Isa::both(there, Isa::positive(m, beyond, rest)), depth, by.by_rule->lit_beyond);
-        return !Isa::any(Isa::both(there, Isa::not_greater(m, by.least_mask))) &&
+        const floats rest = Isa::subtract(of.e, Isa::keep(first_half, of.m));
+        behind = Isa::both(there, Isa::positive(of.m, beyond, rest));
+        return !Isa::any(Isa::both(there, Isa::not_greater(of.m, by.least_mask))) &&
                !(by.next_to_nothing && Isa::any(Isa::both(Isa::greater(z, zero), Isa::greater(Isa::repeat(0x1p-50f), z))));
     }
     /// m z + (e-m) 65535 > 0, z in codes. Three roundings are wrong by 3 * 2^-24 * 65535 m < m/64 at most where the two cancel; so
     /// within m/16 of nothing the sum says nothing. Whole codes m that a bias moves below nothing have e > 0, and a sum far above it.
-    GNOMON_LANES bool decided_sums(const decision& by, const floats& e, const floats& m, const masks& there,
-                                   const std::uint16_t* depths, masks& shadowed) noexcept {
-        const floats z = Isa::subtract(Isa::template codes_of<unorm16, 1>(depths, 0), by.nearer);
-        const floats rest = Isa::subtract(e, m), doubt = Isa::multiply(m, Isa::repeat(0.0625f));
+    GNOMON_LANES bool by_sums(const surface& by, const pair& of, const masks& there, const floats& depth, masks& behind) noexcept {
+        const floats z = Isa::subtract(depth, by.nearer);
+        const floats rest = Isa::subtract(of.e, of.m), doubt = Isa::multiply(of.m, Isa::repeat(0.0625f));
         const masks asked = Isa::both(there, Isa::greater(z, by.before));
-        const masks in_doubt = decided_by_codes<Isa>(m, rest, z, doubt, asked, shadowed);
+        const masks in_doubt = decided_by_codes<Isa>(of.m, rest, z, doubt, asked, behind);
         if constexpr (whole_codes) {
             if (Isa::any(in_doubt)) { // doubled, for then it is whole
-                const ints twice_m = Isa::floor32(Isa::add(m, m)), twice_rest = Isa::floor32(Isa::add(rest, rest));
-                settle_doubt<Isa>(in_doubt, sum_modulo<Isa>(twice_m, twice_rest, z), shadowed);
+                const ints twice_m = Isa::floor32(Isa::add(of.m, of.m)), twice_rest = Isa::floor32(Isa::add(rest, rest));
+                settle_doubt<Isa>(in_doubt, sum_modulo<Isa>(twice_m, twice_rest, z), behind);
             }
             return true;
         } else {
-            return !Isa::any(in_doubt) && !Isa::any(Isa::both(asked, Isa::not_greater(m, by.least_mask))) &&
-                   !(std::same_as<channel_type, float32> && Isa::any(Isa::both(asked, Isa::greater(m, Isa::repeat(0x1p100f)))));
+            return !Isa::any(in_doubt) && !Isa::any(Isa::both(asked, Isa::not_greater(of.m, by.least_mask))) &&
+                   !(std::same_as<channel_type, float32> && Isa::any(Isa::both(asked, Isa::greater(of.m, Isa::repeat(0x1p100f)))));
         }
     }
 
-    GNOMON_LANES_VOID void store(Intensity* to, const masks& shadowed, const floats& darkness) noexcept {
-        if constexpr (std::same_as<Intensity, float> && whole_codes)
-            Isa::store(to, Isa::keep(shadowed, Isa::fraction(darkness, channel_type::scale)));
-        else if constexpr (std::same_as<Intensity, float>)
-            Isa::store(to, Isa::keep(shadowed, Isa::lesser(darkness, Isa::repeat(1.0f))));
-        else if constexpr (sizeof(Intensity) == sizeof(storage))
-            Isa::template store_codes<unorm<Intensity>>(to, Isa::keep(shadowed, darkness));
-        else if constexpr (sizeof(Intensity) > sizeof(storage))
-            Isa::template store_codes<unorm16>(to, Isa::keep(shadowed, Isa::multiply(darkness, Isa::repeat(257.0f))));
-        else // (m + 128) / 257, rounded down: with a half more it is never near a whole number
-            Isa::template store_codes<unorm8>(
-                to, Isa::keep(shadowed, Isa::multiply(Isa::add(darkness, Isa::repeat(128.5f)), Isa::repeat(1.0f / 257.0f))));
-    }
-
-    /// Who is shadowed, of codes as they are stored, or of a blend of them in float. False if lanes do not tell.
-    GNOMON_LANES bool decided(const decision& by, const floats& depth, const floats& mask, const Depth* depths,
-                              masks& shadowed) noexcept {
-        const floats e = moved(Isa::subtract(depth, by.depth_less), by.depth_share);
-        const floats m = moved(Isa::add(mask, by.mask_more), by.mask_share);
-        const masks there = Isa::greater(mask, Isa::repeat(0.0f));
-        if constexpr (std::same_as<Depth, std::uint16_t>) {
-            return decided_sums(by, e, m, there, depths, shadowed);
-        } else if constexpr (whole_codes) {
-            shadowed = decided_codes(by, e, m, depths);
-            if constexpr (Texel::effects.translucency) { // else the mask is stored, and is 0 there
-                shadowed = Isa::both(shadowed, there);
-            }
-            return true;
-        } else {
-            return decided_floats(by, e, m, there, depths, shadowed);
-        }
-    }
-    /// False, and nothing stored, if lanes do not tell.
-    GNOMON_LANES bool one(const decision& by, const storage* texels, const Depth* depths, Intensity* to) noexcept {
-        const floats mask = codes(texels, Texel::mask_index);
-        masks shadowed;
-        if (!decided(by, codes(texels, Texel::depth_index), mask, depths, shadowed)) return false;
-        if constexpr (Texel::effects.translucency)
-            store(to, shadowed, codes(texels, Texel::contribution_index));
+    /// Who of those that are `there` lies behind it, at a depth as it is or in codes. Of whole codes at depths as they are, who of all.
+    /// False if lanes do not tell.
+    GNOMON_LANES bool decided(const surface& by, const floats& depth_code, const floats& mask, const masks& there, const floats& z,
+                              masks& behind) noexcept {
+        const pair of = moved(by, depth_code, mask, there);
+        if constexpr (std::same_as<Depth, std::uint16_t>)
+            return by_sums(by, of, there, z, behind);
+        else if constexpr (!whole_codes)
+            return by_floats(by, of, there, z, behind);
         else
-            store(to, shadowed, mask);
-        return true;
-    }
-    static void slow(const rule& r, const Texel* texels, const Depth* depths, Intensity* to) noexcept {
-        for (int i = 0; i < step; ++i) to[i] = shadow_as<Intensity>(read(texels[i]), detail::as_depth(depths[i]), r);
-    }
-    GNOMON_LANES_VOID void rows(const decision& by, const Texel* texels, const Depth* depths, Intensity* to, int count) noexcept {
-        for (int i = 0; i < count; i += step)
-            if (!one(by, texels[i].stored, depths + i, to + i)) slow(*by.by_rule, texels + i, depths + i, to + i);
+            return behind = by_codes(by, of, z), true;
     }
 };
 

@@ -1,5 +1,5 @@
 // gnomon: soft shadow maps. Blends of four texels in lanes, second part: half and float. Included by simd_points.hpp after
-// simd_decision.hpp, and in its way.
+// simd_rows.hpp, and in its way.
 
 #include <gnomon/receive/receive.hpp>
 #include <gnomon/simd/region.hpp>
@@ -69,10 +69,10 @@ template <typename Isa, texel_format Texel, typename Depth> struct number_blend 
     GNOMON_LANES bool decided(const moving& by, const pair& blended, const Depth* depths, masks& shadowed) noexcept {
         constexpr float infinity = std::numeric_limits<float>::infinity();
         return !Isa::any(Isa::not_greater(Isa::add(blended.e, blended.m), Isa::repeat(-infinity))) &&
-               deciding::decided(by, blended.e, blended.m, depths, shadowed);
+               deciding::decided(by, blended.e, blended.m, deciding::loaded(depths), shadowed);
     }
     GNOMON_LANES_VOID void store(float* to, const masks& shadowed, const pair& blended) noexcept {
-        deciding::store(to, shadowed, blended.m);
+        deciding::store(to, Isa::keep(shadowed, blended.m));
     }
 };
 

@@ -163,7 +163,7 @@ struct avx2 {
             return load(from);
         } else if constexpr (std::same_as<Channel, half16> && Channels == 1) {
             return _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
-        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 1) {
+        } else if constexpr (Channel::whole_codes && Channels == 1) {
             return numbers(widen32(from));
         } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
             return channel_of_pairs(two_quarters(from, from + 8), two_quarters(from + 4, from + 12), c);
@@ -174,8 +174,16 @@ struct avx2 {
                                     _mm256_cvtph_ps(_mm_unpackhi_epi64(first, second)), c);
         } else if constexpr (Channel::whole_codes && Channels == 3) {
             return numbers(thirds(from + c));
-        } else {
-            return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
+        } else if constexpr (std::same_as<Channel, unorm8> && Channels == 4) {
+            return numbers(_mm256_and_si256(_mm256_srl_epi32(load(from), _mm_cvtsi32_si128(8 * c)), _mm256_set1_epi32(255)));
+        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 4) {
+            const ints words = _mm256_castps_si256(codes_of<float32, 2>(reinterpret_cast<const float*>(from), c / 2));
+            return numbers(c % 2 == 0 ? _mm256_and_si256(words, _mm256_set1_epi32(65535)) : _mm256_srli_epi32(words, 16));
+        } else { // copied side by side
+            alignas(64) typename Channel::storage side_by_side[static_cast<std::size_t>(float_lanes)];
+            GNOMON_UNROLL(16)
+            for (int i = 0; i < float_lanes; ++i) side_by_side[i] = from[i * Channels + c];
+            return codes_of<Channel, 1>(side_by_side, 0);
         }
     }
 

@@ -164,7 +164,7 @@ struct avx512 {
             return load(from);
         } else if constexpr (std::same_as<Channel, half16> && Channels == 1) {
             return _mm512_maskz_cvtph_ps(all, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
-        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 1) {
+        } else if constexpr (Channel::whole_codes && Channels == 1) {
             return numbers(widen32(from));
         } else if constexpr (std::same_as<Channel, float32> && Channels == 2) {
             return channel_of_pairs(load(from), load(from + 16), c);
@@ -175,8 +175,18 @@ struct avx512 {
         } else if constexpr (Channel::whole_codes && Channels == 3) {
             const ints first = _mm512_maskz_broadcast_i64x4(0x0F, avx2::thirds(from + c));
             return numbers(_mm512_mask_broadcast_i64x4(first, 0xF0, avx2::thirds(from + c + 24)));
-        } else {
-            return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
+        } else if constexpr (std::same_as<Channel, unorm8> && Channels == 4) {
+            return numbers(
+                _mm512_and_si512(_mm512_maskz_srl_epi32(all, load(from), _mm_cvtsi32_si128(8 * c)), _mm512_set1_epi32(255)));
+        } else if constexpr (std::same_as<Channel, unorm16> && Channels == 4) {
+            const ints words = _mm512_castps_si512(codes_of<float32, 2>(reinterpret_cast<const float*>(from), c / 2));
+            return numbers(c % 2 == 0 ? _mm512_and_si512(words, _mm512_set1_epi32(65535))
+                                      : _mm512_maskz_srli_epi32(all, words, 16));
+        } else { // copied side by side
+            alignas(64) typename Channel::storage side_by_side[static_cast<std::size_t>(float_lanes)];
+            GNOMON_UNROLL(16)
+            for (int i = 0; i < float_lanes; ++i) side_by_side[i] = from[i * Channels + c];
+            return codes_of<Channel, 1>(side_by_side, 0);
         }
     }
 

@@ -27,6 +27,7 @@ concept has_channel = requires(typename Channel::storage* to, const typename Cha
     { Isa::template codes_of<Channel, 1>(from, 0) } -> std::same_as<typename Isa::floats>;
     { Isa::template codes_of<Channel, 2>(from, 1) } -> std::same_as<typename Isa::floats>;
     { Isa::template codes_of<Channel, 3>(from, 2) } -> std::same_as<typename Isa::floats>;
+    { Isa::template codes_of<Channel, 4>(from, 3) } -> std::same_as<typename Isa::floats>;
     { Isa::template codes<Channel>(from) } -> std::same_as<typename Isa::doubles>;
     { Isa::template store_codes<Channel>(to, f) };
     { Isa::template store_codes<Channel>(to, d) };

@@ -174,7 +174,9 @@ struct neon {
             const auto* const codes = from + c;
             return number(uint16x4_t{codes[0], codes[Channels], codes[2 * Channels], codes[3 * Channels]});
         } else {
-            return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
+            const typename Channel::storage side_by_side[] = {from[c], from[c + Channels], from[c + 2 * Channels],
+                                                              from[c + 3 * Channels]};
+            return codes_of<Channel, 1>(side_by_side, 0);
         }
     }
     GNOMON_LANES floats numbers(ints a) noexcept { return vcvtq_f32_s32(signed32(a)); }

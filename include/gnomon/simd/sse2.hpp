@@ -179,6 +179,8 @@ struct sse2 {
         } else if constexpr (Channel::whole_codes) {
             const auto* const codes = from + c;
             return numbers(_mm_setr_epi32(codes[0], codes[Channels], codes[2 * Channels], codes[3 * Channels]));
+        } else if constexpr (std::same_as<Channel, float32>) {
+            return _mm_setr_ps(from[c], from[c + Channels], from[c + 2 * Channels], from[c + 3 * Channels]);
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }

@@ -161,6 +161,8 @@ struct wasm128 {
         } else if constexpr (Channel::whole_codes) {
             const auto* const codes = from + c;
             return number(wasm_u32x4_make(codes[0], codes[Channels], codes[2 * Channels], codes[3 * Channels]));
+        } else if constexpr (std::same_as<Channel, float32>) {
+            return floats_of(wasm_f32x4_make(from[c], from[c + Channels], from[c + 2 * Channels], from[c + 3 * Channels]));
         } else {
             return load(emulated<bytes>::template codes_of<Channel, Channels>(from, c).lane);
         }
