@@ -371,7 +371,6 @@ TEST_CASE_TEMPLATE("blends of whole codes are decided as by the oracle at the co
 }
 
 TEST_CASE_TEMPLATE("a blend of half and float is decided in lanes, for float intensities, unless it is none", Texel, rg16f, rg32f) {
-    static_assert(gnomon::blended_in_lanes<Texel, float> && !gnomon::blended_in_lanes<Texel, std::uint8_t>);
     using blending = gnomon::on_any::number_blend<lanes, Texel, float>;
     const rule plain; // which a decision only points to
     const auto by = blending::moving::template of<Texel, float>(plain);

@@ -293,7 +293,6 @@ TEST_CASE("each register of receivers is answered once, by lanes") {
     CHECK(std::exchange(answers, 0) == 64 / 4);
 }
 
-static_assert(gnomon::blended_in_lanes<gnomon::rg16, std::uint16_t> && !gnomon::blended_in_lanes<gnomon::rga16, float>);
 
 namespace {
 template <typename Texel, typename Depth, typename Intensity>

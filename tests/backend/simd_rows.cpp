@@ -5,63 +5,23 @@
 
 #include "../support/formats.hpp"
 #include "../support/lanes.hpp"
-#include "../support/threshold.hpp"
+#include "../support/shades.hpp"
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
 namespace {
-using gnomon::bias;
-using gnomon::depth_ratio;
 using gnomon::rule;
 using test::dice;
 using test::for_each_isa;
 
-using ratio_rga8 = gnomon::texel<gnomon::unorm8, depth_ratio, test::translucent>;
+using ratio_rga8 = gnomon::texel<gnomon::unorm8, gnomon::depth_ratio, test::translucent>;
 
-/// A caster at some depth over a receiver, or over none, of which a filter left some share or all. One in eight is any bits, with a mask or
-/// without.
-template <typename Texel> Texel any_filtered(dice& roll) {
-    Texel t = Texel::clear();
-    if (roll.one_in(8)) {
-        test::fill_with_bits(roll, gnomon::image_view<Texel>(&t, {1, 1}));
-        if (roll.one_in(4)) t.stored[Texel::mask_index] = {};
-        return t;
-    }
-    t = test::any_caster<Texel>(roll);
-    const int taps = roll.one_in(4) ? 65535 : 81, least = roll.one_in(4) ? 3 : taps;
-    return test::filtered(t, roll.one_in(4) ? taps : roll(0, least), taps);
-}
-
-/// The first depth past the far bound.
-template <typename Texel> float first_bounded(Texel t, const rule& r) {
-    t.stored[Texel::depth_index] = t.stored[Texel::far_index];
-    t.stored[Texel::far_index] = {};
-    if constexpr (Texel::effects.translucency) t.stored[Texel::contribution_index] = Texel::channel_type::encode(1.0);
-    return test::first_shadowed(t, {.caster = r.far_bound});
-}
-
-std::vector<rule> all_rules() {
-    using enum gnomon::bias_towards;
-    constexpr float infinity = test::infinity<float>;
-    std::vector<rule> rules{{}, {.caster = gnomon::unbiased, .far_bound = gnomon::unbiased, .lit_beyond = true}};
-    for (const float fade : {0x1p-6f, 0x1p-20f, 3.0f, infinity, -1.0f, test::nan<float>}) rules.push_back({.fade = fade});
-    rules.push_back({.caster = {.towards = shadow}, .far_bound = {.towards = shadow}, .fade = 0.125f});
-    rules.push_back({.caster = {.towards = none}, .far_bound = {.towards = shadow, .roundings = 300}, .fade = 0.3f});
-    rules.push_back({.caster = {.roundings = 1000, .depth = 0.01f}, .far_bound = {.depth = 0.25f}, .fade = 0.01f});
-    rules.push_back({.caster = {.caster_is_code = true}, .far_bound = {.roundings = 1000, .caster_is_code = true}});
-    return rules;
-}
-
-/// Texels and the depths that try them.
 template <typename Texel> struct receivers {
     std::vector<Texel> texels;
     std::vector<float> z;
@@ -73,38 +33,20 @@ template <typename Texel> struct receivers {
     void add_around(const Texel& t, float at) {
         for (const float here : {test::down(at), at, test::up(at)}) add(t, here);
     }
-    template <typename Depth> [[nodiscard]] std::vector<Depth> depths(dice& roll) const {
-        std::vector<Depth> made(z.size());
-        for (std::size_t i = 0; i < z.size(); ++i)
-            if constexpr (std::same_as<Depth, float>)
-                made[i] = z[i];
-            else
-                made[i] =
-                    static_cast<Depth>(std::clamp(int{gnomon::unorm16::encode(static_cast<double>(z[i]))} + roll(-1, 1), 0, 65535));
-        return made;
-    }
 };
 
 template <typename Texel, typename Depth, typename Intensity>
-void check(const receivers<Texel>& of, const std::vector<Depth>& z, const rule& r) {
+void check(const std::vector<Texel>& texels, const std::vector<Depth>& z, Intensity, const rule& r) {
     std::vector<Intensity> expected(z.size()), made(z.size());
-    gnomon::receive(of.texels, z, expected, r);
+    gnomon::receive(texels, z, expected, r);
     for_each_isa([&]<typename Isa>() {
-        gnomon::reconstruct<Isa>(of.texels, z, made, r);
-        CHECK(std::equal(made.begin(), made.end(), expected.begin(), [](auto a, auto b) {
-            if constexpr (std::same_as<Intensity, float>)
-                return test::same_bits(a, b);
-            else
-                return a == b;
-        }));
+        gnomon::reconstruct<Isa>(texels, z, made, r);
+        CHECK(test::equal_bits(made, expected));
     });
 }
 template <typename Texel> void check_all(const receivers<Texel>& of, const rule& r) {
     dice roll(511);
-    const std::vector<float> z = of.template depths<float>(roll);
-    check<Texel, float, float>(of, z, r);
-    check<Texel, float, std::uint16_t>(of, z, r);
-    check<Texel, std::uint16_t, std::uint8_t>(of, of.template depths<std::uint16_t>(roll), r);
+    test::for_each_kind(roll, of.z, [&](const auto& z, auto intensity) { check(of.texels, z, intensity, r); });
 }
 } // namespace
 
@@ -114,21 +56,11 @@ TEST_CASE_TEMPLATE("rows of every format in lanes are the oracle's, about where 
                    gnomon::rgba32f, gnomon::tm8, gnomon::tm16, ratio_rga8) {
     static_assert(gnomon::decided_in_lanes<Texel>);
     dice roll(510);
-    for (const rule& r : all_rules()) {
+    for (const rule& r : test::rules_that_fade()) {
         receivers<Texel> of;
         for (int i = 0; i < 120; ++i) {
-            const Texel t = any_filtered<Texel>(roll);
-            of.add_around(t, test::first_shadowed(t, r));
-            if constexpr (Texel::effects.far_bound) {
-                const float bound = first_bounded(t, r);
-                of.add_around(t, bound);
-                if (r.fade > 0.0f) {
-                    of.add_around(t, bound + r.fade);
-                    of.add(t, bound + r.fade * roll.unit());
-                }
-            }
-            of.add(t, roll.unit());
-            of.add(t, test::hostile_floats[static_cast<std::size_t>(roll(0, 29))]);
+            const Texel t = test::any_filtered<Texel>(roll);
+            for (const float z : test::depths_that_try(roll, gnomon::read(t), r)) of.add(t, z);
         }
         check_all(of, r);
     }
@@ -142,7 +74,7 @@ TEST_CASE("every pair of bytes of a ratio in lanes: where its shadow begins, one
             of.add_around(t, gnomon::caster_depth(t));
             of.add(t, test::smallest<float>);
         }
-    for (const bias& towards : {gnomon::unbiased, gnomon::towards_light, gnomon::towards_shadow})
+    for (const gnomon::bias& towards : {gnomon::unbiased, gnomon::towards_light, gnomon::towards_shadow})
         check_all(of, {.caster = towards});
 }
 
@@ -156,7 +88,7 @@ TEST_CASE("words of a ratio in lanes at the depths that are their codes', where 
         of.add_around(t, gnomon::caster_depth(t));
         of.add_around(t, static_cast<float>(65535 - depth) / 65536.0f); // a float of few bits near it
     }
-    for (const bias& towards : {gnomon::unbiased, gnomon::towards_light, gnomon::towards_shadow})
+    for (const gnomon::bias& towards : {gnomon::unbiased, gnomon::towards_light, gnomon::towards_shadow})
         check_all(of, {.caster = towards});
 }
 
@@ -168,7 +100,7 @@ TEST_CASE("every code of a depth that lies on its far bound") {
         z.push_back(static_cast<std::uint16_t>(code));
     }
     const rule r{.caster = gnomon::unbiased, .far_bound = gnomon::unbiased};
-    check<gnomon::rgb16, std::uint16_t, std::uint8_t>({texels, {}}, z, r);
+    check(texels, z, std::uint8_t{}, r);
 }
 
 TEST_CASE("a far bound that no receiver can be, of floats that its difference from the mask has no room for") {
@@ -178,9 +110,9 @@ TEST_CASE("a far bound that no receiver can be, of floats that its difference fr
     for (int i = 0; i < 1000; ++i) {
         const float mask = 0.5f + roll.unit() / 2.0f;
         const gnomon::rgba32f t{{mask, mask, mask * (2.0f + roll.unit() / 2.0f), 1.0f}};
-        of.add_around(t, first_bounded(t, r));
+        of.add_around(t, test::first_bounded(gnomon::read(t), r));
     }
-    check<gnomon::rgba32f, float, float>(of, of.z, r);
+    check(of.texels, of.z, float{}, r);
 }
 
 namespace {
@@ -218,7 +150,7 @@ TEST_CASE_TEMPLATE("what lanes do not know of is the oracle's too", Texel, test:
     dice roll(514);
     receivers<Texel> of;
     for (int i = 0; i < 200; ++i) {
-        const Texel t = any_filtered<Texel>(roll);
+        const Texel t = test::any_filtered<Texel>(roll);
         of.add_around(t, test::first_shadowed(t, {}));
     }
     check_all(of, {});

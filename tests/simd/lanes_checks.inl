@@ -287,6 +287,8 @@ template <typename Isa> int wrong_comparisons(const double* number, const double
     for (int i = 0; i < 9; ++i) n += std::memcmp(&stored[i], &expected[i], sizeof(float)) != 0 && !std::isnan(expected[i]);
     return n + !equal(Isa::subtract(a, b), same::subtract(e, f)) + !equal(Isa::smaller(a, b), same::smaller(e, f)) +
            !equal(Isa::larger(a, b), same::larger(e, f)) + (Isa::greater_bits(a, b) != same::greater_bits(e, f)) +
+           !equal(Isa::keep_greater(a, b, b), same::keep_greater(e, f, f)) +
+           !equal(Isa::drop_greater(a, b, b), same::drop_greater(e, f, f)) +
            !equal(Isa::truncate(Isa::load(fitting)), same::truncate(same::load(fitting)));
 }
 

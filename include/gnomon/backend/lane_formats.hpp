@@ -33,18 +33,13 @@ template <texel_format Texel> [[nodiscard]] bool blended_on(image_view<const Tex
 
 } // namespace detail
 
-/// Are rows of these texels decided in lanes, if there are any? A depth_mask is, whatever its effects; a depth_ratio without a far bound;
-/// neither of a channel of a user's. For a static_assert: all else has the same results at a tenth of the speed.
+/// Are receivers on these texels decided in lanes, if there are any, in rows and anywhere? A depth_mask's are, whatever its effects; a
+/// depth_ratio's without a far bound; neither of a channel of a user's. For a static_assert: all else has the same results at a tenth of
+/// the speed.
 template <texel_format Texel>
 inline constexpr bool decided_in_lanes =
     detail::channel_of_lanes<typename Texel::channel_type> &&
     (std::same_as<typename Texel::representation_type, depth_mask> ||
      (std::same_as<typename Texel::representation_type, depth_ratio> && !Texel::effects.far_bound));
-
-/// And receivers anywhere, on maps of 2 to 2^21 texels a side? Premultiplied pairs are, of half and float with float intensities.
-template <texel_format Texel, typename Intensity>
-inline constexpr bool blended_in_lanes =
-    detail::pairs_of<Texel, unorm8> || detail::pairs_of<Texel, unorm16> ||
-    (std::same_as<Intensity, float> && (detail::pairs_of<Texel, half16> || detail::pairs_of<Texel, float32>));
 
 } // namespace gnomon::inline GNOMON_BUILD

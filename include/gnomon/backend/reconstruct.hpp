@@ -130,8 +130,8 @@ void reconstruct(const Row& texels, const Depths& z, Intensities&& intensity, co
 
 /// The same for receivers anywhere: at (x[i], y[i]) in texels, blended from four.
 ///
-/// In lanes go depth_mask pairs of unorm8 and unorm16, and of half and float with float intensities, for rules of at most 128 roundings,
-/// on maps of 2 to 2^21 texels a side and less than 2^31 bytes; what does not goes by the scalar loop.
+/// In lanes go the same texels, for rules of at most 128 roundings, on maps of 2 to 2^21 texels a side and less than 2^31 bytes; what does
+/// not goes by the scalar loop. Pairs are quickest, of half and float with float intensities; the rest is summed and decided in doubles.
 template <typename Isa = best_isa, typename T, depth_row Depths, intensity_row Intensities>
     requires texel_format<std::remove_const_t<T>>
 void reconstruct(image_view<T> map, strided_span<const float> x, strided_span<const float> y, const Depths& z,
@@ -141,8 +141,7 @@ void reconstruct(image_view<T> map, strided_span<const float> x, strided_span<co
     const image_view<const Texel> texels = map;
     const strided_span<const Depth> depths{strided_span(z)};
     const strided_span out(intensity);
-    using Intensity = typename decltype(out)::element_type;
-    if constexpr (detail::has_lanes<Isa> && blended_in_lanes<Texel, Intensity>)
+    if constexpr (detail::has_lanes<Isa> && decided_in_lanes<Texel>)
         if (detail::blended_on(texels, r) && detail::in_lanes<Isa>([&]<typename Lanes>() {
                 return detail::receive_points_on<Lanes>(texels, x, y, depths, out, r), true;
             }))

@@ -1,4 +1,4 @@
-// gnomon: soft shadow maps. The decision in lanes, third part: pairs and depths in codes, by whole numbers of 16 bits. Included by
+// gnomon: soft shadow maps. The decision in lanes, fourth part: pairs and depths in codes, by whole numbers of 16 bits. Included by
 // simd_receive.hpp after simd_rows.hpp, and in its way.
 
 #include <gnomon/receive/receive.hpp>

@@ -3,11 +3,13 @@
 #include <gnomon/backend/lane_formats.hpp>
 #include <gnomon/backend/simd_blend.hpp>
 #include <gnomon/backend/simd_number_blend.hpp>
+#include <gnomon/backend/simd_texel_blend.hpp>
 #include <gnomon/backend/stretch.hpp>
 #include <gnomon/receive/receive.hpp>
 #include <gnomon/simd/region.hpp>
 
 #include <bit>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -15,10 +17,22 @@
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
-/// Receivers anywhere on a map of pairs, a register at a time.
+/// What blends and decides.
+template <typename Isa, texel_format Texel, typename Depth, typename Intensity> consteval auto choose_blend() {
+    if constexpr (detail::byte_pairs<Texel>)
+        return std::type_identity<byte_blend<Isa, Texel>>{};
+    else if constexpr (detail::pairs_of<Texel, unorm16>)
+        return std::type_identity<word_blend<Isa, Texel>>{};
+    else if constexpr (detail::pairs_of<Texel, typename Texel::channel_type> && std::same_as<Intensity, float> &&
+                       !Texel::channel_type::whole_codes)
+        return std::type_identity<number_blend<Isa, Texel, Depth>>{};
+    else
+        return std::type_identity<texel_blend<Isa, Texel, Depth, Intensity>>{};
+}
+
+/// Receivers anywhere on a map, a register at a time.
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct blended_decision {
-    using whole_codes = std::conditional_t<detail::byte_pairs<Texel>, byte_blend<Isa, Texel>, word_blend<Isa, Texel>>;
-    using blending = std::conditional_t<Texel::channel_type::whole_codes, whole_codes, number_blend<Isa, Texel, Depth>>;
+    using blending = typename decltype(choose_blend<Isa, Texel, Depth, Intensity>())::type;
     using ints = typename Isa::ints;
     using floats = typename Isa::floats;
     using masks = typename Isa::masks;
@@ -84,8 +98,9 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
 
     GNOMON_LANES_VOID void note(const blended_decision& by, const taps& across, const taps& down, work& w, int i) noexcept {
         constexpr int doublings = std::countr_zero(sizeof(Texel));
-        Isa::store(w.at + i,
-                   Isa::add32(Isa::multiply32(down.texel, by.stride), Isa::template shift_left32<doublings>(across.texel)));
+        constexpr std::uint32_t odd = sizeof(Texel) >> doublings;
+        const ints column = odd == 1 ? across.texel : Isa::multiply32(across.texel, Isa::repeat32(odd));
+        Isa::store(w.at + i, Isa::add32(Isa::multiply32(down.texel, by.stride), Isa::template shift_left32<doublings>(column)));
         Isa::store(w.across + i, Isa::either(across.here, Isa::template shift_left32<16>(across.next)));
         Isa::store(w.here + i, blending::weight(down.here));
         Isa::store(w.next + i, blending::weight(down.next));
@@ -112,6 +127,19 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         }
     }
 
+    /// False, and nothing stored, if lanes do not tell.
+    template <typename Blended>
+    GNOMON_LANES bool answered(const blended_decision& by, const Blended& blended, const Depth* z, Intensity* to) noexcept {
+        if constexpr (std::same_as<blending, texel_blend<Isa, Texel, Depth, Intensity>>) {
+            return blending::answered(by.by_rule, blended, z, to);
+        } else {
+            masks shadowed;
+            if (!blending::decided(by.by_rule, blended, z, shadowed)) return false;
+            blending::store(to, shadowed, blended);
+            return true;
+        }
+    }
+
     /// \pre count is a multiple of `step`
     static void some(const blended_decision& by, image_view<const Texel> map, const float* x, const float* y, const Depth* z,
                      Intensity* to, int count, const rule& r) noexcept {
@@ -125,10 +153,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
             const int k = i % ring;
             const auto blended =
                 blending::blend(w.texels, k, Isa::load(w.across + k), Isa::load(w.here + k), Isa::load(w.next + k));
-            masks shadowed;
-            if (blending::decided(by.by_rule, blended, z + i, shadowed))
-                blending::store(to + i, shadowed, blended);
-            else // float does not tell
+            if (!answered(by, blended, z + i, to + i))
                 for (int j = i; j < i + step; ++j) to[j] = shadow_as<Intensity>(sample(map, x[j], y[j]), detail::as_depth(z[j]), r);
         }
     }

@@ -3,6 +3,7 @@
 
 #include <gnomon/backend/lane_formats.hpp>
 #include <gnomon/backend/simd_decision.hpp>
+#include <gnomon/backend/simd_shade.hpp>
 #include <gnomon/backend/simd_rows.hpp>
 #include <gnomon/backend/simd_codes.hpp>
 #include <gnomon/backend/stretch.hpp>

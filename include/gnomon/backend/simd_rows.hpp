@@ -1,5 +1,5 @@
-// gnomon: soft shadow maps. The decision in lanes, second part: a receiver to each texel, and what is left of its shadow. Included by
-// simd_receive.hpp after simd_decision.hpp, and in its way.
+// gnomon: soft shadow maps. The decision in lanes, third part: a receiver to each texel. Included by simd_receive.hpp after
+// simd_shade.hpp, and in its way.
 
 #include <gnomon/receive/receive.hpp>
 #include <gnomon/simd/region.hpp>
@@ -16,10 +16,10 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     using channel_type = typename Texel::channel_type;
     using storage = typename Texel::storage;
     using floats = typename Isa::floats;
-    using doubles = typename Isa::doubles;
     using masks = typename Isa::masks;
     using caster = surface<Isa, Texel, Depth>;
     using far_bound = surface<Isa, Texel, float>;
+    using shades = shade<Isa, Texel, Intensity>;
     static constexpr int step = Isa::float_lanes;
     static constexpr bool whole_codes = channel_type::whole_codes;
     using numbers = float[static_cast<std::size_t>(step)];
@@ -55,7 +55,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         if constexpr (!whole_codes && (Texel::effects.translucency || !std::same_as<Intensity, float>)) {
             alignas(64) numbers dark;
             Isa::store(dark, darkness);
-            for (int i = 0; i < step; i += Isa::double_lanes) store_left(to + i, dark + i, Isa::repeat(1.0));
+            for (int i = 0; i < step; i += Isa::double_lanes) shades::store(to + i, shades::wide(dark + i), Isa::repeat(1.0));
         } else if constexpr (std::same_as<Intensity, float> && whole_codes)
             Isa::store(to, Isa::fraction(darkness, channel_type::scale));
         else if constexpr (std::same_as<Intensity, float>)
@@ -69,47 +69,18 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                                               Isa::multiply(Isa::add(darkness, Isa::repeat(128.5f)), Isa::repeat(1.0f / 257.0f)));
     }
 
-    GNOMON_LANES doubles within(const doubles& v, double most) noexcept {
-        return Isa::smaller(Isa::larger(v, Isa::repeat(0.0)), Isa::repeat(most));
-    }
-    static constexpr double full = static_cast<double>(channel_type::scale);
-    GNOMON_LANES doubles of_full(const doubles& v) noexcept {
-        if constexpr (whole_codes)
-            return Isa::divide(v, Isa::repeat(full));
-        else
-            return v;
-    }
-    /// stored_intensity.
-    GNOMON_LANES_VOID void store_left(Intensity* to, const float* dark, const doubles& left) noexcept {
-        const doubles darkness = Isa::template codes<float32>(dark);
-        if constexpr (std::same_as<Intensity, float>) {
-            Isa::template store_codes<float32>(to, Isa::multiply(within(of_full(darkness), 1.0), left));
-        } else {
-            const doubles last = Isa::repeat(static_cast<double>(unorm<Intensity>::scale));
-            doubles share = Isa::multiply(of_full(Isa::multiply(within(darkness, full), last)), left);
-            Isa::settle(share);
-            Isa::template store_codes<unorm<Intensity>>(to, Isa::add(share, Isa::repeat(0.5)));
-        }
-    }
-
-    /// Stores what before_far_bound leaves of shadows that fade, of those `beyond` their bound; the others are taken to be where it is,
-    /// and left whole.
+    /// Stores what is left of shadows that fade, of those `beyond` their bound; the others are whole.
     GNOMON_LANES_VOID void store_faded(const decision& by, Intensity* to, const floats& darkness, typename far_bound::pair of,
                                        const floats& z, const masks& beyond) noexcept {
-        const floats at_it = Isa::drop(beyond, Isa::repeat(1.0f));
-        alignas(64) numbers dark, e, m, depth;
+        alignas(64) numbers dark, e, m, depth, past;
         Isa::store(dark, darkness);
-        Isa::store(e, Isa::add(Isa::keep(beyond, of.e), at_it));
-        Isa::store(m, Isa::add(Isa::keep(beyond, of.m), at_it));
-        Isa::store(depth, Isa::keep(beyond, Isa::subtract(z, by.by_bound.nearer)));
+        Isa::store(e, of.e);
+        Isa::store(m, of.m);
+        Isa::store(depth, Isa::subtract(z, by.by_bound.nearer));
+        Isa::store(past, Isa::keep(beyond, Isa::repeat(1.0f)));
         for (int i = 0; i < step; i += Isa::double_lanes) {
-            const doubles wide = Isa::template codes<float32>(m + i), none = Isa::repeat(0.0);
-            const doubles farther = Isa::multiply(wide, Isa::template codes<float32>(depth + i)); // exact
-            const doubles passed = Isa::subtract(farther, Isa::subtract(wide, Isa::template codes<float32>(e + i)));
-            const doubles share = Isa::multiply(wide, Isa::repeat(static_cast<double>(by.by_rule->fade)));
-            // Where the share is nothing there is something to divide by it, and nothing is left.
-            const doubles quotient = Isa::divide(passed, Isa::larger(share, none));
-            store_left(to + i, dark + i, within(Isa::subtract(Isa::repeat(1.0), quotient), 1.0));
+            const auto faded = shades::faded(shades::wide(e + i), shades::wide(m + i), shades::wide(depth + i), by.by_rule->fade);
+            shades::store(to + i, shades::wide(dark + i), shades::where_positive(shades::wide(past + i), faded, Isa::repeat(1.0)));
         }
     }
     /// Stores shadows up to their far bound. False, and nothing stored, if lanes do not tell.

@@ -229,6 +229,12 @@ struct avx2 {
     GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept {
         return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_GT_OQ)));
     }
+    GNOMON_LANES doubles keep_greater(doubles a, doubles b, doubles v) noexcept {
+        return _mm256_and_pd(_mm256_cmp_pd(a, b, _CMP_GT_OQ), v);
+    }
+    GNOMON_LANES doubles drop_greater(doubles a, doubles b, doubles v) noexcept {
+        return _mm256_andnot_pd(_mm256_cmp_pd(a, b, _CMP_GT_OQ), v);
+    }
     GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
 
     template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {

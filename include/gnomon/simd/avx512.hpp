@@ -218,6 +218,12 @@ struct avx512 {
         return _mm512_maskz_cvtepi32_pd(eight, _mm512_maskz_cvttpd_epi32(eight, a));
     }
     GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept { return _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ); }
+    GNOMON_LANES doubles keep_greater(doubles a, doubles b, doubles v) noexcept {
+        return _mm512_maskz_mov_pd(_mm512_cmp_pd_mask(a, b, _CMP_GT_OQ), v);
+    }
+    GNOMON_LANES doubles drop_greater(doubles a, doubles b, doubles v) noexcept {
+        return _mm512_maskz_mov_pd(_mm512_cmp_pd_mask(a, b, _CMP_NGT_UQ), v);
+    }
     GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
 
     template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {

@@ -358,6 +358,13 @@ template <int Bytes> struct emulated {
         for (int i = 0; i < double_lanes; ++i) bits |= (a.lane[i] > b.lane[i] ? 1u : 0u) << i;
         return bits;
     }
+    /// `v` where a > b, else 0; and 0 where a > b, else `v`.
+    [[nodiscard]] static doubles keep_greater(doubles a, doubles b, doubles v) noexcept {
+        return each([&](int i) { return a.lane[i] > b.lane[i] ? v.lane[i] : 0.0; });
+    }
+    [[nodiscard]] static doubles drop_greater(doubles a, doubles b, doubles v) noexcept {
+        return each([&](int i) { return a.lane[i] > b.lane[i] ? 0.0 : v.lane[i]; });
+    }
     /// Nothing. Where a compiler would fuse a product with the sum it goes into, it keeps the product's own rounding.
     static void settle(doubles&) noexcept {}
 

@@ -131,6 +131,8 @@ concept simd_isa = requires(typename Isa::ints i, typename Isa::floats f, typena
     { Isa::larger(d, d) } -> std::same_as<typename Isa::doubles>;
     { Isa::truncate(d) } -> std::same_as<typename Isa::doubles>;
     { Isa::greater_bits(d, d) } -> std::same_as<unsigned>;
+    { Isa::keep_greater(d, d, d) } -> std::same_as<typename Isa::doubles>;
+    { Isa::drop_greater(d, d, d) } -> std::same_as<typename Isa::doubles>;
     { Isa::settle(d) };
     { Isa::store_floats(numbers, d) } -> std::same_as<typename Isa::doubles>;
     { Isa::template cast_pairs<unorm8>(codes, unsigned{}, d) };

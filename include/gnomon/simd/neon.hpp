@@ -197,6 +197,12 @@ struct neon {
         const uint64x2_t is = vcgtq_f64(a, b);
         return static_cast<unsigned>((vgetq_lane_u64(is, 0) & 1) | (vgetq_lane_u64(is, 1) & 2));
     }
+    GNOMON_LANES doubles keep_greater(doubles a, doubles b, doubles v) noexcept {
+        return vreinterpretq_f64_u64(vandq_u64(vreinterpretq_u64_f64(v), vcgtq_f64(a, b)));
+    }
+    GNOMON_LANES doubles drop_greater(doubles a, doubles b, doubles v) noexcept {
+        return vreinterpretq_f64_u64(vbicq_u64(vreinterpretq_u64_f64(v), vcgtq_f64(a, b)));
+    }
     GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
     GNOMON_LANES doubles multiply(doubles a, doubles b) noexcept { return vmulq_f64(a, b); }
     GNOMON_LANES doubles divide(doubles a, doubles b) noexcept { return vdivq_f64(a, b); }

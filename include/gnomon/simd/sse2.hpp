@@ -214,6 +214,8 @@ struct sse2 {
     GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept {
         return static_cast<unsigned>(_mm_movemask_pd(_mm_cmpgt_pd(a, b)));
     }
+    GNOMON_LANES doubles keep_greater(doubles a, doubles b, doubles v) noexcept { return _mm_and_pd(_mm_cmpgt_pd(a, b), v); }
+    GNOMON_LANES doubles drop_greater(doubles a, doubles b, doubles v) noexcept { return _mm_andnot_pd(_mm_cmpgt_pd(a, b), v); }
     GNOMON_LANES_VOID void settle(doubles& a) noexcept { GNOMON_SETTLE(a); }
 
     template <channel Channel> GNOMON_LANES doubles codes(const typename Channel::storage* from) noexcept {

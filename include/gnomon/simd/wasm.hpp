@@ -186,6 +186,12 @@ struct wasm128 {
     GNOMON_LANES unsigned greater_bits(doubles a, doubles b) noexcept {
         return static_cast<unsigned>(wasm_i64x2_bitmask(wasm_f64x2_gt(bits_of(a), bits_of(b))));
     }
+    GNOMON_LANES doubles keep_greater(doubles a, doubles b, doubles v) noexcept {
+        return doubles_of(wasm_f64x2_gt(bits_of(a), bits_of(b)) & bits_of(v));
+    }
+    GNOMON_LANES doubles drop_greater(doubles a, doubles b, doubles v) noexcept {
+        return doubles_of(wasm_v128_andnot(bits_of(v), wasm_f64x2_gt(bits_of(a), bits_of(b))));
+    }
     GNOMON_LANES_VOID void settle(doubles&) noexcept {}
     GNOMON_LANES doubles multiply(doubles a, doubles b) noexcept { return a * b; }
     GNOMON_LANES doubles divide(doubles a, doubles b) noexcept { return a / b; }
