@@ -2,7 +2,10 @@
 //
 // Names are WHAT/LIGHT/eEDGE/SIZE: triangles with legs of EDGE texels, as a terrain that fills a map of SIZE x SIZE rg8 once, so the
 // smaller, the more; or 2000 needles all across it. LIGHT is a sun, or a spot lamp, which divides at every texel. All run in one process;
-// clearing the map between two rounds is not timed.
+// clearing the map between two rounds is not timed. copy/eEDGE/SIZE is the floor: memcpy that moves as many bytes as the mesh and its
+// map have.
+#include "floors.hpp"
+
 #include <gnomon/geometry/rasterize_lanes.hpp>
 #include <gnomon/geometry/spot_light.hpp>
 
@@ -73,6 +76,11 @@ light_frame lamp() {
         .frame({side, side});
 }
 
+std::size_t bytes_of(const terrain& t) {
+    return t.positions.size() * sizeof(t.positions[0]) + t.indices.size() * sizeof(t.indices[0]) +
+           std::size_t{side} * side * sizeof(rg8);
+}
+
 template <typename Cast> void add(const std::string& what, const light_frame& light, const terrain& t, Cast cast) {
     benchmark::RegisterBenchmark(what.c_str(), [&t, light, cast](benchmark::State& state) {
         image<rg8> map({side, side}, rg8::clear());
@@ -87,7 +95,16 @@ template <typename Cast> void add(const std::string& what, const light_frame& li
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side; ++x) covered += map(x, y).occupied() ? 1 : 0;
         state.counters["covered"] = static_cast<double>(covered) / (side * side);
+        state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(bytes_of(t)));
         state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(t.indices.size() / 3));
+    });
+}
+
+void add_floor(const std::string& edge, const terrain& t) {
+    benchmark::RegisterBenchmark(("copy/" + edge).c_str(), [&t](benchmark::State& state) {
+        const std::size_t half = bytes_of(t) / 128 * 64;
+        floors::copy(state, half);
+        state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(2 * half));
     });
 }
 
@@ -109,6 +126,7 @@ int main(int count, char** words) {
     terrains.push_back(needles(2000));
     for (std::size_t i = 0; i < terrains.size(); ++i) {
         const std::string edge = (i < std::size(edges) ? "e" + std::to_string(edges[i]) : "needles") + "/" + std::to_string(side);
+        add_floor(edge, terrains[i]);
         add_all("sun/" + edge, sun(), terrains[i]);
         add_all("lamp/" + edge, lamp(), terrains[i]);
     }

@@ -7,7 +7,9 @@
 //     copy                                   the floor: memcpy that moves as many bytes
 //     points, points.avx2, points.scalar     one receiver a texel at positions of its own, side by side but turned a little
 //     gather, gather.avx2                    the floor of these on bytes: two gathers of 32 bits and a store
+//     vsm, pcf3, pcf5, pcf7 and .avx2        what other techniques ask in rows of floats, in our lanes: see ladder.inl
 //     opencv.copied, opencv.multiplied       operations on planes in one thread, if CMake found OpenCV, of which the quicker counts
+//     remap                                  cv::remap at the positions of points: it blends, and decides nothing
 #include "floors.hpp"
 
 #include <gnomon/backend/simd.hpp>
@@ -16,6 +18,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <initializer_list>
 #include <random>
 #include <string>
 #include <utility>
@@ -26,6 +29,19 @@
 #if GNOMON_BENCH_OPENCV
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#endif
+
+#if GNOMON_X86
+GNOMON_TARGET_BEGIN(GNOMON_AVX2)
+#define LADDER_ON with_avx2
+#include "ladder.inl"
+#undef LADDER_ON
+GNOMON_TARGET_END
+GNOMON_TARGET_BEGIN(GNOMON_AVX512)
+#define LADDER_ON with_avx512
+#include "ladder.inl"
+#undef LADDER_ON
+GNOMON_TARGET_END
 #endif
 
 namespace {
@@ -60,6 +76,12 @@ template <typename Texel, typename Depth> struct scene {
                 const double mask = unit();
                 texels(x, y).stored[Texel::mask_index] = Texel::channel_type::encode(mask);
                 texels(x, y).stored[Texel::depth_index] = Texel::channel_type::encode(mask * unit());
+                if constexpr (Texel::effects.far_bound) {
+                    const auto caster = static_cast<double>(Texel::channel_type::decode(texels(x, y).stored[Texel::depth_index]));
+                    texels(x, y).stored[Texel::far_index] = Texel::channel_type::encode(caster * unit());
+                }
+                if constexpr (Texel::effects.translucency)
+                    texels(x, y).stored[Texel::contribution_index] = Texel::channel_type::encode(mask * unit());
                 const double depth = unit();
                 if constexpr (std::same_as<Depth, float>)
                     z(next, 0) = static_cast<float>(depth);
@@ -96,8 +118,9 @@ template <typename Backend> void add_fields(const std::string& what, int size) {
     });
 }
 
-template <typename Texel, typename Depth, typename Intensity> void add_format(const char* format) {
-    for (const int size : {128, 1024, 4096}) {
+template <typename Texel, typename Depth, typename Intensity>
+void add_format(const char* format, std::initializer_list<int> sizes = {128, 1024, 4096}) {
+    for (const int size : sizes) {
         add_ours<scalar, Texel, Depth, Intensity>("scalar", format, size);
         add_ours<simd<>, Texel, Depth, Intensity>("simd", format, size);
 #if GNOMON_X86
@@ -188,6 +211,10 @@ void add_all_places(int size) {
         add_fields<Backend>("fields" + suffix, size);
         add_points<Backend, rg8>("points" + suffix, "u8x2.f32", size);
         add_points<Backend, rg32f>("points" + suffix, "f32x2.f32", size);
+        if (size != 1024) return;
+        add_points<Backend, tm8>("points" + suffix, "tm8.f32", size);
+        add_points<Backend, rgba8>("points" + suffix, "rgba8.f32", size);
+        add_points<Backend, rgba16f>("points" + suffix, "rgba16f.f32", size);
     };
     add_each(scalar{}, ".scalar");
     add_each(simd<>{}, "");
@@ -204,6 +231,42 @@ void add_all_gathers([[maybe_unused]] int size) {
         add_gathers("gather", size, gather_twice_avx512);
     else
         add_gathers("gather", size, gather_twice_avx2);
+#endif
+}
+
+#if GNOMON_X86
+/// Of pairs, and of one plane with a border for the taps.
+template <typename Vsm, typename Pcf> void add_rungs(const std::string& suffix, int size, Vsm vsm, Pcf pcf) {
+    const auto bytes = square(size) * bytes_of<rg32f, float, float>;
+    add("vsm" + suffix, "f32x2.f32", size, bytes, [size, vsm](benchmark::State& state) {
+        const scene<rg32f, float> from({size * size, 1});
+        auto intensity = make_row<float>(size);
+        floors::measure(state, [&] { vsm(from.texels(0, 0).stored, &from.z(0, 0), &intensity(0, 0), size * size); });
+    });
+    for (const int radius : {1, 2, 3})
+        add("pcf" + std::to_string(2 * radius + 1) + suffix, "f32x2.f32", size, bytes,
+            [size, radius, pcf](benchmark::State& state) {
+                const scene<rg32f, float> from({size, size});
+                image<float> map({size + 2 * radius, size + 2 * radius}, 1.0f);
+                for (int y = 0; y < size; ++y)
+                    for (int x = 0; x < size; ++x) map(x + radius, y + radius) = caster_depth(from.texels(x, y));
+                auto intensity = make_row<float>(size);
+                const int stride = static_cast<int>(map.view().stride() / static_cast<std::ptrdiff_t>(sizeof(float)));
+                floors::measure(state, [&] {
+                    for (int y = 0; y < size; ++y)
+                        pcf(&map(0, y), stride, radius, &from.z(y * size, 0), &intensity(y * size, 0), size);
+                });
+            });
+}
+#endif
+void add_ladder([[maybe_unused]] int size) {
+#if GNOMON_X86
+    if (best_lanes() < cpu_level::avx2) return;
+    add_rungs(".avx2", size, ladder::with_avx2::vsm<avx2>, ladder::with_avx2::pcf<avx2>);
+    if (best_lanes() >= cpu_level::avx512)
+        add_rungs("", size, ladder::with_avx512::vsm<avx512>, ladder::with_avx512::pcf<avx512>);
+    else
+        add_rungs("", size, ladder::with_avx2::vsm<avx2>, ladder::with_avx2::pcf<avx2>);
 #endif
 }
 
@@ -246,6 +309,16 @@ void add_opencv(int size) {
             planes all(size);
             floors::measure(state, [&] { (all.*work)(); });
         });
+    add("remap", "u8x2.f32", size, square(size) * 16, [size](benchmark::State& state) {
+        cv::setNumThreads(1);
+        const scene<rg8, float> from({size, size});
+        turned at(size);
+        const auto row_bytes = static_cast<std::size_t>(from.texels.view().stride());
+        const cv::Mat map(size, size, CV_8UC2, const_cast<rg8*>(&from.texels(0, 0)), row_bytes);
+        const cv::Mat x(size, size, CV_32F, &at.x(0, 0)), y(size, size, CV_32F, &at.y(0, 0));
+        cv::Mat blended(size, size, CV_8UC2);
+        floors::measure(state, [&] { cv::remap(map, blended, x, y, cv::INTER_LINEAR, cv::BORDER_CONSTANT); });
+    });
 }
 #else
 void add_opencv(int) {}
@@ -259,6 +332,10 @@ int main(int count, char** words) {
     add_format<rg16, std::uint16_t, std::uint16_t>("u16x2.z16");
     add_format<rg16, float, float>("u16x2.f32");
     add_format<rg32f, float, float>("f32x2.f32");
+    add_format<rgb8, std::uint16_t, std::uint8_t>("rgb8.z16", {128, 1024});
+    add_format<tm8, std::uint16_t, std::uint8_t>("tm8.z16", {128, 1024});
+    add_format<rgba16f, float, float>("rgba16f.f32", {128, 1024});
+    add_ladder(128);
     for (const int size : {128, 1024, 4096}) {
         add_all_places(size);
         add_all_gathers(size);

@@ -74,6 +74,8 @@ def receives(path):
         if base == "points" and (floor := time.get(f"gather{suffix}/{of}/{size}")):
             where = "" if size == "1024" else "_" + WHERE[size]
             ratios[f"receive.bilinear.{of.removesuffix('.f32')}.of_gather{where}{suffix}"] = floor / of_lanes
+        if base == "points" and lanes != "scalar" and (theirs := time.get(f"remap/{of}/{size}")):
+            ratios[f"receive.bilinear.{of.removesuffix('.f32')}.vs_remap_{WHERE[size]}{suffix}"] = theirs / of_lanes
         if base == "fields" and (rows := time.get(f"simd{suffix}/{of}/{size}")):
             ratios[f"receive.fields.{of}.over_rows_{WHERE[size]}{suffix}"] = of_lanes / rows
         if what not in ("simd", "simd.avx2", "simd.sse2"):
@@ -81,6 +83,9 @@ def receives(path):
         for peer, called in (("copy", "of_copy"), ("scalar", "vs_scalar")):
             if theirs := time.get(f"{peer}/{of}/{size}"):
                 ratios[f"receive.{of}.{called}_{WHERE[size]}{suffix}"] = theirs / of_lanes
+        for rung in ("vsm", "pcf3", "pcf5", "pcf7"):
+            if theirs := time.get(f"{rung}{suffix}/{of}/{size}"):
+                ratios[f"receive.{of.removesuffix('.f32')}.vs_{rung}_{WHERE[size]}{suffix}"] = theirs / of_lanes
         forms = {form: time[peer] for form in ("copied", "multiplied") if (peer := f"opencv.{form}/{of}/{size}") in time}
         for peer, theirs in forms.items() | {("opencv", min(forms.values()))} if forms else ():
             where = "" if WHERE[size] == "l2" else "_" + WHERE[size]
@@ -97,12 +102,15 @@ def rasters(path):
     for what, suffix in (("simd", ""), ("simd.avx2", ".avx2"), ("simd.sse2", ".sse2")):
         logs = []
         for name in time:
-            mine, light, edge, size = name.split("/")
+            mine, *rest = name.split("/")
             if mine != what:
                 continue
+            light, edge, size = rest
             over = time[f"scalar/{light}/{edge}/{size}"] / time[name]
             ratios[f"raster.{light}.{edge}.lanes_over_scalar{suffix}"] = over
             logs.append(math.log(over))
+            if floor := time.get(f"copy/{edge}/{size}"):
+                ratios[f"raster.{light}.{edge}.over_copy{suffix}"] = time[name] / floor
         if logs:
             ratios[f"raster.lanes_over_scalar{suffix}"] = math.exp(sum(logs) / len(logs))
             ratios[f"raster.mtris_per_s{suffix}"] = rate[f"{what}/sun/e2/1024"] / 1e6

@@ -22,6 +22,7 @@ TIMES = {
         "simd/f32x2.f32/128": 2, "opencv.copied/f32x2.f32/128": 24, "opencv.multiplied/f32x2.f32/128": 30, "simd/f32x2.f32/1024": 5, "opencv.copied/f32x2.f32/1024": 28, "opencv.multiplied/f32x2.f32/1024": 20,
         "fields/u8x2.f32/128": 8, "fields.scalar/u8x2.f32/128": 24, "fields.avx2/u8x2.f32/128": 12, "simd/u8x2.f32/128": 4, "simd.avx2/u8x2.f32/128": 3,
         "points/u8x2.f32/1024": 10, "gather/u8x2.f32/1024": 7, "points.scalar/u8x2.f32/1024": 80, "points.avx2/u8x2.f32/128": 10, "gather.avx2/u8x2.f32/128": 6,
+        "remap/u8x2.f32/1024": 45, "vsm/f32x2.f32/128": 3, "pcf7.avx2/f32x2.f32/128": 50,
     },
     "sparse": {"dense/u8x2/k9/1024": 100, "10pct/u8x2/k9/1024": 15, "50pct/u8x2/k9/1024": 90, "85pct/u8x2/k9/1024": 98, "empty/u8x2/k9/1024": 0.5},
     "grid": {"merge32": 3000},
@@ -30,7 +31,7 @@ TIMES = {
                 {"filter": (10, 5), "sparse": (9, 6), "receive": (8, 5), "filter.avx2": (9, 5)}.items() for count, time in zip((1, 2), times)},
     "flags": {"o2_plain/a": 10, "o3_native/a": 10, "o2_plain/b": 11, "o3_native/b": 10, "o2_plain/c": 15, "o3_native/c": 10, "o2_plain.avx2/a": 12, "o3_native.avx2/a": 10,
               "asked/a/64": 21, "unasked/a/64": 20},
-    "raster": {"scalar/sun/e2/1024": 8, "simd/sun/e2/1024": 4, "scalar/lamp/e2/1024": 16, "simd/lamp/e2/1024": 2},
+    "raster": {"scalar/sun/e2/1024": 8, "simd/sun/e2/1024": 4, "scalar/lamp/e2/1024": 16, "simd/lamp/e2/1024": 2, "copy/e2/1024": 2.5},
 }
 for size in (256, 512, 1024, 2048, 4096):  # five cells are 2 and twenty are 8, so the mean of all is 2^2.6; of some there is none
     TIMES["filter"][f"copy/u16x2/k0/{size}"] = 2
@@ -54,6 +55,7 @@ EXPECTED = {
     "receive.f32x2.vs_opencv_multiplied_l3": 4,
     "receive.points.u8x2.f32.vs_scalar_l3": 8, "receive.fields.u8x2.f32.vs_scalar_l2": 3, "receive.fields.u8x2.f32.over_rows_l2": 2,
     "receive.fields.u8x2.f32.vs_scalar_l2.avx2": 2, "receive.fields.u8x2.f32.over_rows_l2.avx2": 4,
+    "receive.bilinear.u8x2.vs_remap_l3": 4.5, "receive.f32x2.vs_vsm_l2": 1.5, "raster.sun.e2.over_copy": 1.6,
     "receive.f32x2.vs_opencv_l3": 4, "receive.bilinear.u8x2.of_gather": 0.7, "receive.bilinear.u8x2.of_gather_l2.avx2": 0.6,
     "sparse.u8x2.10pct.over_ideal": 1.2, "sparse.u8x2.50pct.over_ideal": 1.5, "sparse.u8x2.85pct.of_dense": 0.98, "sparse.empty.of_dense": 0.005,
     "grid.merge32.ns": 300, "pipeline.u8x2.blur_receive.over_sum_of_floors": 2.5,
@@ -61,7 +63,7 @@ EXPECTED = {
     "flags.o2_plain.over_o3_native": 1.1, "flags.o2_plain.over_o3_native.worst": 1.5,
     "flags.o2_plain.over_o3_native.avx2": 1.2, "flags.o2_plain.over_o3_native.worst.avx2": 1.2, "flags.asked.over_unasked.a.64": 1.05,
     "raster.sun.e2.lanes_over_scalar": 2, "raster.lamp.e2.lanes_over_scalar": 8, "raster.lanes_over_scalar": 4,
-    "raster.mtris_per_s": 7,
+    "raster.lamp.e2.over_copy": 0.8, "raster.mtris_per_s": 7,
 }
 
 
