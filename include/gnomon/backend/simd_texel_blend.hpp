@@ -151,19 +151,19 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     GNOMON_LANES doubles left_behind_codes(const moving& by, const pair& of, const doubles& z, const doubles& left) noexcept {
         const doubles none = Isa::repeat(0.0), last = Isa::repeat(static_cast<double>(depth16::last));
         const doubles depth = Isa::subtract(z, Isa::repeat(by.codes)), rest = Isa::subtract(last, depth);
-        const doubles e = Isa::larger(of.e, none), m = Isa::larger(of.m, none);
         const doubles kept =
-            Isa::keep_greater(shades::times(e, last), shades::times(m, rest), Isa::keep_greater(depth, none, left));
+            Isa::keep_greater(shades::times(of.e, last), shades::times(of.m, rest), Isa::keep_greater(depth, none, left));
         return Isa::add(Isa::keep_greater(none, rest, left), Isa::drop_greater(none, rest, kept));
     }
     /// Has every sum a number? What is infinite beside the map may have been weighed by nothing, and left none.
     GNOMON_LANES bool are_numbers(const blended& of) noexcept {
+        const doubles least = Isa::repeat(-std::numeric_limits<double>::infinity());
+        const unsigned all = Isa::greater_bits(Isa::repeat(0.0), least);
         bool each = true;
         for (int i = 0; i < step; i += Isa::double_lanes) {
             doubles sum = Isa::repeat(0.0);
             for (int c = 0; c < channels; ++c) sum = Isa::add(sum, Isa::load(of.code[c] + i));
-            constexpr double infinity = std::numeric_limits<double>::infinity();
-            each &= Isa::greater_bits(sum, Isa::repeat(-infinity)) == (1u << Isa::double_lanes) - 1;
+            each &= Isa::greater_bits(sum, least) == all;
         }
         return each;
     }
