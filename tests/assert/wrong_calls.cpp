@@ -162,6 +162,57 @@ TEST_CASE("lanes that the processor has not are a wrong call, and the oracle's c
     CHECK(test::lanes_to_come::loads == 0);
 }
 
+TEST_CASE(
+    "results of receivers that lie on what is read of later ones are a wrong call, in place or on earlier ones they are none") {
+    struct receiver {
+        rg8 texel;
+        std::uint16_t depth;
+        float z, intensity;
+    };
+    constexpr const char* overtaken =
+        "gnomon: results of receivers lie on what is read of later ones: write in place, or elsewhere";
+    std::vector<float> memory(16), other(16);
+    std::vector<receiver> all(9);
+    const std::vector<rg8> texels(7, rg8::clear());
+    const image<rg8> map({4, 4}, rg8::clear());
+    const auto seven = [](auto& first, std::ptrdiff_t stride) { return strided_span(&first, 7, stride); };
+    const auto ahead = [&](int first) { return seven(memory[static_cast<std::size_t>(first)], 4); };
+    const auto backwards = [&](int first) { return seven(memory[static_cast<std::size_t>(first)], -4); };
+    const auto both = [&](const auto& row, const auto& z, const auto& to, const char* expected) {
+        receive(row, z, to);
+        CHECK(complaint() == expected);
+        reconstruct(row, z, to);
+        CHECK(complaint() == expected);
+    };
+    for (const int first : {0, 1, 6, 7}) both(texels, ahead(0), ahead(first), first == 1 || first == 6 ? overtaken : "");
+    for (const int first : {7, 8, 9}) both(texels, ahead(8), ahead(first), first == 9 ? overtaken : "");
+    for (const int first : {13, 12, 7, 6})
+        both(texels, backwards(13), backwards(first), first == 12 || first == 7 ? overtaken : "");
+    for (const int first : {8, 9}) both(texels, backwards(8), backwards(first), "");
+    constexpr std::ptrdiff_t size = sizeof(receiver);
+    for (const std::size_t first : {0u, 1u, 2u}) {
+        const char* const expected = first == 0 ? "" : overtaken;
+        both(seven(all[0].texel, size), seven(all[0].z, size), seven(all[first].z, size), expected);
+        both(seven(all[0].texel, size), seven(all[0].z, size), seven(all[first].intensity, size), "");
+        for (std::size_t byte = 0; byte < 2; ++byte) {
+            both(seven(all[0].texel, size), ahead(0), seven(all[first].texel.stored[byte], size), expected);
+            both(seven(all[8].texel, -size), ahead(0), seven(all[8 - first].texel.stored[byte], -size), expected);
+        }
+        both(seven(all[0].texel, size), seven(all[0].depth, size), seven(all[first].depth, size), expected);
+    }
+    for (int which = 0; which < 3; ++which)
+        for (const int first : {0, 1}) {
+            const auto in = [&](int k) { return strided_span<const float>(k == which ? ahead(0) : seven(other[0], 4)); };
+            receive(map.view(), in(0), in(1), in(2), ahead(first));
+            CHECK(complaint() == (first == 1 ? overtaken : ""));
+            reconstruct(map.view(), in(0), in(1), in(2), ahead(first));
+            CHECK(complaint() == (first == 1 ? overtaken : ""));
+        }
+    const strided_span<float> same_place(memory.data(), 7, 0); // of no stride, or of two, nothing is told
+    both(texels, same_place, same_place, "");
+    both(texels, ahead(0), seven(memory[2], 8), "");
+}
+
 TEST_CASE("a filter of images and tiles that differ in size is a wrong call unless the grid has none") {
     image<rg8> from({8, 2}, rg8::clear()), to = from, small({8, 1}, rg8::clear());
     filter_scratch<rg8, blur> scratch(8);

@@ -167,6 +167,9 @@ void receive_points(image_view<const Texel> map, strided_span<const float> x, st
     using part = detail::stretch<blended::step, 256>;
     const auto by = blended::of(map, r);
     const int count = lesser(lesser(x.size(), y.size()), lesser(z.size(), intensity.size()));
+    GNOMON_ASSERT(!detail::overtakes(intensity, x, count) && !detail::overtakes(intensity, y, count) &&
+                      !detail::overtakes(intensity, z, count),
+                  detail::overtaken);
     const bool side_by_side = x.contiguous() && y.contiguous() && z.contiguous() && intensity.contiguous();
     typename part::template buffer<float> px, py;
     typename part::template buffer<Depth> depth;

@@ -39,6 +39,7 @@ void receive_row(strided_span<const Texel> texels, strided_span<const Depth> z, 
     using part = detail::stretch<one::step, 64>;
     const auto decide = one::of(r);
     const int count = lesser(texels.size(), lesser(z.size(), intensity.size()));
+    GNOMON_ASSERT(!detail::overtakes(intensity, texels, count) && !detail::overtakes(intensity, z, count), detail::overtaken);
     const bool side_by_side = texels.contiguous() && z.contiguous() && intensity.contiguous();
     typename part::template buffer<Texel> texel;
     typename part::template buffer<Depth> depth;

@@ -4,6 +4,7 @@
 #include <gnomon/receive/decide.hpp>
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
@@ -32,6 +33,21 @@ concept intensity_row = intensity_number<element_in<std::remove_reference_t<Row>
 namespace detail {
 [[nodiscard]] constexpr float as_depth(float z) noexcept { return z; }
 [[nodiscard]] constexpr depth16 as_depth(std::uint16_t code) noexcept { return {code}; }
+
+/// Does a result lie within what is read of a later receiver? Told of spans of one stride, as those of a structure's fields are.
+template <typename To, typename From>
+[[nodiscard]] bool overtakes(strided_span<To> to, strided_span<From> from, int count) noexcept {
+    const std::ptrdiff_t stride = to.stride() < 0 ? -to.stride() : to.stride();
+    if (to.stride() != from.stride() || stride == 0 || count < 2) return false;
+    const auto address = [](const auto& first) { return reinterpret_cast<std::intptr_t>(&first); };
+    const std::ptrdiff_t apart = address(to[0]) - address(from[0]); // result i and what receiver i + k reads overlap if
+    const auto to_size = static_cast<std::ptrdiff_t>(sizeof(To)), from_size = static_cast<std::ptrdiff_t>(sizeof(From));
+    const std::ptrdiff_t least = to.stride() > 0 ? apart - from_size : -apart - to_size; // least < k stride < least + both sizes
+    const std::ptrdiff_t k = least < 0 ? 1 : least / stride + 1;
+    return k < count && k * stride < least + to_size + from_size;
+}
+inline constexpr const char* overtaken =
+    "gnomon: results of receivers lie on what is read of later ones: write in place, or elsewhere";
 } // namespace detail
 
 /// Receivers that lie one to one on texels: intensity[i] = shadow(texels[i], z[i]). The shortest of the three spans counts.
@@ -42,7 +58,7 @@ namespace detail {
 ///
 /// A row, a column, or a field of an array of structures: any stride that keeps the elements aligned. Nothing is allocated. In place
 /// too: where element i of the result lies within texel i or depth i and no later one, or apart from all that is read after it. \pre No
-/// other overlap: lanes read hundreds of receivers before they write the first.
+/// other overlap, which is asserted of spans of one stride: lanes read hundreds of receivers before they write the first.
 template <texel_row Row, depth_row Depths, intensity_row Intensities>
 void receive(const Row& texels, const Depths& z, Intensities&& intensity, const rule& r = {}) noexcept {
     const strided_span row(texels);
@@ -50,6 +66,7 @@ void receive(const Row& texels, const Depths& z, Intensities&& intensity, const 
     const strided_span out(intensity);
     using number = typename decltype(out)::element_type;
     const int count = lesser(row.size(), lesser(depths.size(), out.size()));
+    GNOMON_ASSERT(!detail::overtakes(out, row, count) && !detail::overtakes(out, depths, count), detail::overtaken);
     for (int i = 0; i < count; ++i) out[i] = shadow_as<number>(read(row[i]), detail::as_depth(depths[i]), r);
 }
 
@@ -71,6 +88,8 @@ void receive(image_view<T> map, strided_span<const float> x, strided_span<const 
     const strided_span out(intensity);
     using number = typename decltype(out)::element_type;
     const int count = lesser(lesser(x.size(), y.size()), lesser(depths.size(), out.size()));
+    GNOMON_ASSERT(!detail::overtakes(out, x, count) && !detail::overtakes(out, y, count) && !detail::overtakes(out, depths, count),
+                  detail::overtaken);
     for (int i = 0; i < count; ++i) out[i] = shadow_as<number>(sample(map, x[i], y[i]), detail::as_depth(depths[i]), r);
 }
 
