@@ -21,7 +21,12 @@ namespace test {
     rules.push_back({.caster = {.towards = shadow}, .far_bound = {.towards = shadow}, .fade = 0.125f});
     rules.push_back({.caster = {.towards = none}, .far_bound = {.towards = shadow, .roundings = 300}, .fade = 0.3f});
     rules.push_back({.caster = {.roundings = 128, .depth = 0.01f}, .far_bound = {.depth = 0.25f}, .fade = 0.01f});
-    rules.push_back({.caster = {.caster_is_code = true}, .far_bound = {.roundings = 1000, .caster_is_code = true}});
+    rules.push_back(
+        {.caster = {.roundings = 1000, .caster_is_code = true}, .far_bound = {.roundings = 1000, .caster_is_code = true}});
+    rules.push_back(
+        {.caster = {.towards = shadow, .roundings = 5, .depth = -0.25f}, .far_bound = {.depth = -0.125f}, .fade = 0x1p-27f});
+    for (const float depth : {nan<float>, infinity<float>, -infinity<float>})
+        rules.push_back({.caster = {.depth = depth}, .far_bound = {.depth = -depth}, .fade = 0.25f});
     return rules;
 }
 
@@ -75,6 +80,13 @@ template <typename Depth> [[nodiscard]] std::vector<Depth> stored_depths(dice& r
             return static_cast<Depth>(std::clamp(int{gnomon::unorm16::encode(static_cast<double>(at))} + roll(-1, 1), 0, 65535));
     });
     return made;
+}
+
+/// How many are neither light nor all that the darkest of them is.
+template <typename T> [[nodiscard]] int half_shadows(const std::vector<T>& intensities) {
+    const T darkest = intensities.empty() ? T{} : *std::max_element(intensities.begin(), intensities.end());
+    return static_cast<int>(
+        std::count_if(intensities.begin(), intensities.end(), [darkest](T each) { return each > T{} && each < darkest; }));
 }
 
 /// Calls f(depths, intensity) for kinds of both that try all there is: z as it is and in codes, intensities of every kind.

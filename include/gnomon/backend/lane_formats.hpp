@@ -21,13 +21,14 @@ inline constexpr bool pairs_of = std::same_as<typename Texel::representation_typ
                                  std::same_as<typename Texel::channel_type, Channel>;
 template <texel_format Texel> inline constexpr bool byte_pairs = pairs_of<Texel, unorm8>;
 
-/// Do lanes blend on a map, for a rule? Offsets are of 32 bits, a row has two texels for a load, and so many roundings move a pair by less
-/// than floats have room for.
+/// Do lanes blend on a map, for a rule? Offsets are of 32 bits, a row has two texels for a load, and so many roundings move a pair of whole
+/// codes by less than floats have room for.
 template <texel_format Texel> [[nodiscard]] bool blended_on(image_view<const Texel> map, const rule& r) noexcept {
     constexpr int most = 1 << 21, most_roundings = 128;
     constexpr int bytes = static_cast<int>(sizeof(Texel));
     const std::ptrdiff_t row = map.stride() < 0 ? -map.stride() : map.stride();
-    return r.caster.roundings <= most_roundings && map.width() >= 2 && map.height() >= 2 && map.width() <= most &&
+    constexpr bool any_rule = !pairs_of<Texel, unorm8> && !pairs_of<Texel, unorm16>;
+    return (any_rule || r.caster.roundings <= most_roundings) && map.width() >= 2 && map.height() >= 2 && map.width() <= most &&
            map.height() <= most && row <= (0x7FFFFFFF - bytes * map.width()) / map.height();
 }
 

@@ -130,8 +130,9 @@ void reconstruct(const Row& texels, const Depths& z, Intensities&& intensity, co
 
 /// The same for receivers anywhere: at (x[i], y[i]) in texels, blended from four.
 ///
-/// In lanes go the same texels, for rules of at most 128 roundings, on maps of 2 to 2^21 texels a side and less than 2^31 bytes; what does
-/// not goes by the scalar loop. Pairs are quickest, of half and float with float intensities; the rest is summed and decided in doubles.
+/// In lanes go the same texels, on maps of 2 to 2^21 texels a side and less than 2^31 bytes, pairs of whole codes for rules of at most 128
+/// roundings; what does not goes by the scalar loop. Pairs are quickest, of half and float with float intensities; the rest is decided in
+/// doubles.
 template <typename Isa = best_isa, typename T, depth_row Depths, intensity_row Intensities>
     requires texel_format<std::remove_const_t<T>>
 void reconstruct(image_view<T> map, strided_span<const float> x, strided_span<const float> y, const Depths& z,

@@ -18,6 +18,18 @@ namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
 inline constexpr float blend_whole = 65536.0f; ///< the sum of the four weights
 
+/// The weights of four corners, 65536 together: whole numbers, from those across in words and those down the columns.
+template <typename Isa> struct four_weights {
+    typename Isa::floats of[4];
+};
+template <typename Isa>
+[[nodiscard]] GNOMON_INLINE four_weights<Isa> corner_weights(const typename Isa::ints& across, const typename Isa::floats& here,
+                                                             const typename Isa::floats& next) noexcept {
+    const auto left = Isa::numbers(Isa::both(across, Isa::repeat32(0xFFFF)));
+    const auto right = Isa::numbers(Isa::template shift_right32<16>(across));
+    return {{Isa::multiply(left, here), Isa::multiply(right, here), Isa::multiply(left, next), Isa::multiply(right, next)}};
+}
+
 /// What a bias does to a blend, and which depths it leaves lit.
 template <typename Isa> struct blend_rule {
     typename Isa::floats e, m, z; ///< what pair and receiver are moved by

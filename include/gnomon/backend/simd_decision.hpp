@@ -61,7 +61,8 @@ GNOMON_INLINE void settle_doubt(const typename Isa::masks& in_doubt, const typen
 ///     depths in codes   of unorm nothing; of half and float one receiver in a million, or all that lie exactly where their shadow begins,
 ///                       m <= 2^-50, and in float m > 2^100
 ///
-/// A depth_ratio is a pair whose m is full.
+/// A depth_ratio is a pair whose m is full: the oracle's products of t m and m have 56 bits, but differ by 2^-40 of themselves or not at
+/// all.
 template <typename Isa, texel_format Texel, typename Depth> struct surface {
     using channel_type = typename Texel::channel_type;
     using ints = typename Isa::ints;
@@ -98,7 +99,7 @@ template <typename Isa, texel_format Texel, typename Depth> struct surface {
         Isa::settle(product);
         return product;
     }
-    /// As `apply` has them. In float what a bias adds is 2^-149, which moves no mask above 2^-50, and of depths beside such a mask the sign
+    /// As `apply` has them. In float what a bias adds is 2^-149 a rounding, which moves no mask above 2^-50, and of depths beside such a mask the sign
     /// of the least; so it is added last, and not to empty texels: of what is denormal a product takes ten times as long.
     GNOMON_LANES pair moved(const surface& by, const floats& depth, const floats& mask, const masks& there) noexcept {
         if constexpr (!Texel::representation_type::premultiplied)
@@ -150,8 +151,8 @@ template <typename Isa, texel_format Texel, typename Depth> struct surface {
         }
     }
 
-    /// Who of those that are `there` lies behind it, at a depth as it is or in codes. Of whole codes at depths as they are, who of all.
-    /// False if lanes do not tell.
+    /// Who of those that are `there` lies behind it, at a depth as it is or in codes. Of whole codes at depths as they are nobody asks who
+    /// is there. False if lanes do not tell.
     GNOMON_LANES bool decided(const surface& by, const floats& depth_code, const floats& mask, const masks& there, const floats& z,
                               masks& behind) noexcept {
         const pair of = moved(by, depth_code, mask, there);

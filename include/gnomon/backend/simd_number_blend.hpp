@@ -40,13 +40,9 @@ template <typename Isa, texel_format Texel, typename Depth> struct number_blend 
 
     template <int Ring>
     GNOMON_LANES pair blend(const fetched<Ring>& from, int i, const ints& across, const floats& here, const floats& next) noexcept {
-        const floats left = Isa::numbers(Isa::both(across, Isa::repeat32(0xFFFF)));
-        const floats right = Isa::numbers(Isa::template shift_right32<16>(across));
+        const auto all = corner_weights<Isa>(across, here, next);
         alignas(64) float weights[4][static_cast<std::size_t>(step)], made[2][static_cast<std::size_t>(step)];
-        Isa::store(weights[0], Isa::multiply(left, here));
-        Isa::store(weights[1], Isa::multiply(right, here));
-        Isa::store(weights[2], Isa::multiply(left, next));
-        Isa::store(weights[3], Isa::multiply(right, next));
+        for (int k = 0; k < 4; ++k) Isa::store(weights[k], all.of[k]);
         GNOMON_UNROLL(2)
         for (int c = 0; c < 2; ++c) {
             alignas(64) float codes[4][static_cast<std::size_t>(step)];

@@ -14,7 +14,8 @@
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 
-/// `sample` and `shadow_as` in doubles, a sum and a comparison at a time, so that nothing is left to them but what is infinite.
+/// `sample` and `shadow_as` themselves, lane by lane: in doubles, but for sums of bytes, which floats hold. Only blends that are no number
+/// go by the scalar loop.
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity> struct texel_blend {
     using channel_type = typename Texel::channel_type;
     using ints = typename Isa::ints;
@@ -30,12 +31,13 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
 
     struct moving {
         bias_steps<Texel> caster, far_bound;
-        double codes; ///< of a depth in codes, towards the light
-        rule by;
+        double codes_nearer; ///< by which a depth in codes is moved
+        float fade;
+        bool lit_beyond;
 
         template <texel_format, typename> [[nodiscard]] static moving of(const rule& r) noexcept {
             return {bias_steps<Texel>::of(r.caster), bias_steps<Texel>::of(r.far_bound),
-                    static_cast<double>(codes_towards_light<Texel>(r.caster)), r};
+                    static_cast<double>(codes_towards_light<Texel>(r.caster)), r.fade, r.lit_beyond};
         }
     };
     /// Texels of three numbers have room for four, of which lanes take one more easily.
@@ -60,10 +62,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     template <int Ring>
     GNOMON_LANES blended blend(const fetched<Ring>& from, int i, const ints& across, const floats& here,
                                const floats& next) noexcept {
-        const floats left = Isa::numbers(Isa::both(across, Isa::repeat32(0xFFFF)));
-        const floats right = Isa::numbers(Isa::template shift_right32<16>(across));
-        const floats weights[4] = {Isa::multiply(left, here), Isa::multiply(right, here), Isa::multiply(left, next),
-                                   Isa::multiply(right, next)};
+        const auto weights = corner_weights<Isa>(across, here, next);
         blended made;
         if constexpr (std::same_as<channel_type, unorm8> && premultiplied)
             blend_bytes(from, i, weights, made);
@@ -76,12 +75,12 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     }
     /// Sums below 2^24.
     template <int Ring>
-    GNOMON_LANES_VOID void blend_bytes(const fetched<Ring>& from, int i, const floats (&weights)[4], blended& made) noexcept {
+    GNOMON_LANES_VOID void blend_bytes(const fetched<Ring>& from, int i, const four_weights<Isa>& weights, blended& made) noexcept {
         GNOMON_UNROLL(4)
         for (int c = 0; c < channels; ++c) {
-            floats sum = Isa::multiply(codes(from, 0, i, c), weights[0]);
+            floats sum = Isa::multiply(codes(from, 0, i, c), weights.of[0]);
             GNOMON_UNROLL(4)
-            for (int k = 1; k < 4; ++k) sum = Isa::add_product(sum, codes(from, k, i, c), weights[k]);
+            for (int k = 1; k < 4; ++k) sum = Isa::add_product(sum, codes(from, k, i, c), weights.of[k]);
             alignas(64) float sums[lanes];
             Isa::store(sums, sum);
             for (int at = 0; at < step; at += Isa::double_lanes) keep(made, c, at, shades::wide(sums + at));
@@ -89,11 +88,12 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     }
     /// Products below 2^48, or of 41 bits.
     template <int Ring>
-    GNOMON_LANES_VOID void blend_numbers(const fetched<Ring>& from, int i, const floats (&weights)[4], blended& made) noexcept {
+    GNOMON_LANES_VOID void blend_numbers(const fetched<Ring>& from, int i, const four_weights<Isa>& weights,
+                                         blended& made) noexcept {
         alignas(64) float weight[4][lanes], code[4][numbers][lanes];
         GNOMON_UNROLL(4)
         for (int k = 0; k < 4; ++k) {
-            Isa::store(weight[k], weights[k]);
+            Isa::store(weight[k], weights.of[k]);
             GNOMON_UNROLL(4)
             for (int c = 0; c < channels; ++c) Isa::store(code[k][c], codes(from, k, i, c));
         }
@@ -117,7 +117,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         Isa::store(made.code[c] + at, Isa::multiply(sum, Isa::repeat(1.0 / 65536.0)));
     }
 
-    /// As floats have it.
+    /// As floats have it, and -0 as 0.
     GNOMON_LANES doubles rounded(const doubles& v) noexcept {
         alignas(64) float made[lanes];
         return Isa::store_floats(made, v);
@@ -147,12 +147,13 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         const doubles far_half = Isa::subtract(e, shades::times(m, Isa::subtract(Isa::repeat(1.0), z)));
         return Isa::add(Isa::keep_greater(half, z, near_half), Isa::drop_greater(half, z, far_half));
     }
-    /// `left` where behind_caster of a depth16 holds. A bias that leaves m below nothing leaves e above it, and then any `rest` does.
+    /// `left` where behind_caster of a depth16 holds.
     GNOMON_LANES doubles left_behind_codes(const moving& by, const pair& of, const doubles& z, const doubles& left) noexcept {
         const doubles none = Isa::repeat(0.0), last = Isa::repeat(static_cast<double>(depth16::last));
-        const doubles depth = Isa::subtract(z, Isa::repeat(by.codes)), rest = Isa::subtract(last, depth);
+        const doubles depth = Isa::subtract(z, Isa::repeat(by.codes_nearer)), rest = Isa::subtract(last, depth);
+        const doubles e = Isa::larger(of.e, none), m = Isa::larger(of.m, none);
         const doubles kept =
-            Isa::keep_greater(shades::times(of.e, last), shades::times(of.m, rest), Isa::keep_greater(depth, none, left));
+            Isa::keep_greater(shades::times(e, last), shades::times(m, rest), Isa::keep_greater(depth, none, left));
         return Isa::add(Isa::keep_greater(none, rest, left), Isa::drop_greater(none, rest, kept));
     }
     /// Has every sum a number? What is infinite beside the map may have been weighed by nothing, and left none.
@@ -177,9 +178,9 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
     GNOMON_LANES bool answered(const moving& by, const blended& of, const Depth* depths, Intensity* to) noexcept {
         if constexpr (!whole_codes)
             if (!are_numbers(of)) return false;
-        alignas(64) float near_z[lanes], far_z[lanes];
-        Isa::store(near_z, Isa::subtract(as_unit(depths), Isa::repeat(by.caster.nearer)));
-        Isa::store(far_z, Isa::subtract(as_unit(depths), Isa::repeat(by.far_bound.nearer)));
+        alignas(64) float caster_z[lanes], bound_z[lanes];
+        Isa::store(caster_z, Isa::subtract(as_unit(depths), Isa::repeat(by.caster.nearer)));
+        Isa::store(bound_z, Isa::subtract(as_unit(depths), Isa::repeat(by.far_bound.nearer)));
         for (int i = 0; i < step; i += Isa::double_lanes) {
             const doubles none = Isa::repeat(0.0), all = Isa::repeat(1.0), depth = shades::wide(depths + i);
             const double* const mask = of.code[Texel::mask_index] + i;
@@ -187,8 +188,8 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
             if constexpr (Texel::effects.far_bound) {
                 const double* const far_bound = of.code[Texel::far_index] + i;
                 const pair bound = moved(by.far_bound, far_bound, mask);
-                const doubles z = shades::wide(far_z + i);
-                const doubles faded = by.by.fade > 0.0f ? shades::faded(bound.e, bound.m, z, by.by.fade) : none;
+                const doubles z = shades::wide(bound_z + i);
+                const doubles faded = by.fade > 0.0f ? shades::faded(bound.e, bound.m, z, by.fade) : none;
                 left = shades::where_positive(behind(bound, z), faded, all);
                 left = shades::where_positive(Isa::load(far_bound), left, all);
             }
@@ -196,8 +197,8 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
             if constexpr (in_codes) {
                 left = left_behind_codes(by, caster, depth, left);
             } else {
-                left = Isa::keep_greater(behind(caster, shades::wide(near_z + i)), none, left);
-                if (by.by.lit_beyond) left = Isa::drop_greater(depth, all, left);
+                left = Isa::keep_greater(behind(caster, shades::wide(caster_z + i)), none, left);
+                if (by.lit_beyond) left = Isa::drop_greater(depth, all, left);
             }
             left = Isa::keep_greater(Isa::load(mask), none, Isa::keep_greater(depth, none, left));
             shades::store(to + i, Isa::load(of.code[darkness] + i), left);

@@ -60,7 +60,8 @@ template <texel_format Texel, typename Number, typename Real, typename Depth>
                                                 const bias_steps<Texel, Real, Depth>& by, Number fade) noexcept {
     const biased<Number, Depth> bound = apply(by, texel.far_bound(), texel.mask(), z);
     const Number depth = static_cast<Number>(bound.z);
-    const Number passed = let("passed", bound.m * depth - (bound.m - bound.e)); // m (z - far bound)
+    const Number farther = let("farther", bound.m * depth);             // alone, so that no compiler fuses it
+    const Number passed = let("passed", farther - (bound.m - bound.e)); // m (z - far bound)
     const Number share = let("share", bound.m * fade);
     const auto fades = let("fades", both(fade > Number(0), share > Number(0)));
     const Number left = let("left", Number(1) - passed / select(fades, share, Number(1)));

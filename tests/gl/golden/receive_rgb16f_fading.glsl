@@ -50,7 +50,8 @@ float gnomon_shadow(vec4 texel, float z) {
     precise float e_2 = (texel.z + 2.9802322e-08) * 1.0004885;
     precise float m_2 = (texel.y + -2.9802322e-08) * 0.9995115;
     precise float nearer_z_2 = z + 0.00024420023;
-    precise float passed = m_2 * nearer_z_2 - (m_2 - e_2);
+    precise float farther = m_2 * nearer_z_2;
+    precise float passed = farther - (m_2 - e_2);
     precise float share = m_2 * 0.25;
     bool fades = share > 0.0;
     precise float left = 1.0 - passed / (fades ? share : 1.0);

@@ -67,7 +67,8 @@ float gnomon_shadow(vec4 texel, float z) {
     precise float e_2 = texel.z - gnomon_bound_bias.x;
     precise float m_2 = texel.y + gnomon_bound_bias.z;
     precise float nearer_z_2 = z - gnomon_bound_nearer;
-    precise float passed = m_2 * nearer_z_2 - (m_2 - e_2);
+    precise float farther = m_2 * nearer_z_2;
+    precise float passed = farther - (m_2 - e_2);
     precise float share = m_2 * gnomon_fade;
     bool fades = gnomon_fade > 0.0 && share > 0.0;
     precise float left = 1.0 - passed / (fades ? share : 1.0);

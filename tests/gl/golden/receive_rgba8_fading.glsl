@@ -60,7 +60,8 @@ float gnomon_shadow(vec4 texel, float z) {
     precise float e_2 = texel.z + 0.5;
     precise float m_2 = texel.y + -0.5;
     precise float nearer_z_2 = z + 0.0019608738;
-    precise float passed = m_2 * nearer_z_2 - (m_2 - e_2);
+    precise float farther = m_2 * nearer_z_2;
+    precise float passed = farther - (m_2 - e_2);
     precise float share = m_2 * 0.25;
     bool fades = share > 0.0;
     precise float left = 1.0 - passed / (fades ? share : 1.0);
