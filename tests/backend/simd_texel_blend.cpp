@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -88,6 +89,16 @@ TEST_CASE_TEMPLATE(
 
 namespace {
 using lanes = gnomon::emulated<16>;
+template <typename Texel, typename Intensity>
+using chosen = typename gnomon::on_any::blended_decision<lanes, Texel, float, Intensity>::blending;
+static_assert(std::same_as<chosen<gnomon::rg8, std::uint16_t>, gnomon::on_any::byte_blend<lanes, gnomon::rg8>>);
+static_assert(std::same_as<chosen<gnomon::rg16, std::uint8_t>, gnomon::on_any::word_blend<lanes, gnomon::rg16>>);
+static_assert(std::same_as<chosen<gnomon::rg32f, float>, gnomon::on_any::number_blend<lanes, gnomon::rg32f, float>>);
+static_assert(
+    std::same_as<chosen<gnomon::rg32f, std::uint8_t>, gnomon::on_any::texel_blend<lanes, gnomon::rg32f, float, std::uint8_t>>);
+static_assert(std::same_as<chosen<gnomon::rga8, float>, gnomon::on_any::texel_blend<lanes, gnomon::rga8, float, float>>);
+static_assert(std::same_as<chosen<gnomon::tm8, float>, gnomon::on_any::texel_blend<lanes, gnomon::tm8, float, float>>);
+
 template <typename Texel, typename Depth> using blending = gnomon::on_any::texel_blend<lanes, Texel, Depth, std::uint8_t>;
 
 /// Is a register answered that has this among its numbers?
