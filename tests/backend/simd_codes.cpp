@@ -48,6 +48,8 @@ using half_row_to_floats = row_of<gnomon::rg16f, std::uint16_t, float>;
 using half_row = row_of<gnomon::rg16f, std::uint16_t, std::uint8_t>;
 using bounded_row = row_of<gnomon::rgb8, std::uint16_t, std::uint8_t>;
 using translucent_row = row_of<gnomon::rga8, std::uint16_t, std::uint8_t>;
+using ratio_row = row_of<gnomon::tm8, std::uint16_t, std::uint8_t>;
+using ratio_row_of_words = row_of<gnomon::tm16, std::uint16_t, std::uint16_t>;
 
 const std::vector<rule>& rules() {
     static const std::vector<rule> all{
@@ -122,10 +124,13 @@ TYPE_TO_STRING_AS("halves to floats", half_row_to_floats);
 TYPE_TO_STRING_AS("halves", half_row);
 TYPE_TO_STRING_AS("far bounds", bounded_row);
 TYPE_TO_STRING_AS("translucent", translucent_row);
+TYPE_TO_STRING_AS("ratios", ratio_row);
+TYPE_TO_STRING_AS("ratios of 16 bits", ratio_row_of_words);
 
 TEST_CASE_TEMPLATE("lanes decide on codes as the oracle does: every width to 140, any stride, alignment and rule", Row, byte_row,
                    byte_row_of_floats, word_row, word_row_to_bytes, float_row, float_row_of_codes, half_row, words_to_bytes,
-                   bytes_to_words, translucent_words, half_row_to_floats, bounded_row, translucent_row) {
+                   bytes_to_words, translucent_words, half_row_to_floats, bounded_row, translucent_row, ratio_row,
+                   ratio_row_of_words) {
     using Texel = typename Row::texel;
     using Depth = typename Row::depth;
     using Intensity = typename Row::intensity;
@@ -340,6 +345,29 @@ TEST_CASE("every mask is stored as the oracle stores it, as 8 bits, as 16 and as
     check_lanes<float>(bytes, last, {});
 }
 
+TEST_CASE_TEMPLATE(
+    "ratios are decided without a product, as by the oracle, about the codes where their shadows begin, by every rule", Texel,
+    gnomon::tm8, gnomon::tm16) {
+    constexpr int last = std::numeric_limits<typename Texel::storage>::max();
+    dice roll(443);
+    for (const rule& r : rules()) {
+        std::vector<Texel> texels;
+        std::vector<std::uint16_t> z;
+        for (int i = 0; i < 512; ++i)
+            for (const int mask : {0, 1, roll(0, last), last}) {
+                const int depth = last == 255 ? i % 256 : (i < 8 ? i * last / 7 : roll(0, last));
+                const int begins = 65535 - 65535 / last * depth + gnomon::codes_towards_light<Texel>(r.caster);
+                for (const int code : {0, 65535, begins - 1, begins, begins + 1, begins + 2}) {
+                    texels.push_back({{static_cast<typename Texel::storage>(depth), static_cast<typename Texel::storage>(mask)}});
+                    z.push_back(nearest_code(code));
+                }
+            }
+        check_lanes<std::uint8_t>(texels, z, r);
+        check_lanes<std::uint16_t>(texels, z, r);
+        check_lanes<float>(texels, z, r);
+    }
+}
+
 TEST_CASE("of rows the shortest span counts in lanes too") {
     dice roll(424);
     std::vector<rg8> texels(300);
@@ -358,7 +386,7 @@ TEST_CASE("of rows the shortest span counts in lanes too") {
 }
 
 TEST_CASE_TEMPLATE("results may take the place of what they come from, in lanes as in the oracle", Row, byte_row, word_row,
-                   word_row_to_bytes, float_row) {
+                   word_row_to_bytes, float_row, ratio_row, ratio_row_of_words) {
     using Texel = typename Row::texel;
     using Depth = typename Row::depth;
     using Intensity = typename Row::intensity;

@@ -293,7 +293,6 @@ TEST_CASE("each register of receivers is answered once, by lanes") {
     CHECK(std::exchange(answers, 0) == 64 / 4);
 }
 
-
 namespace {
 template <typename Texel, typename Depth, typename Intensity>
 using chosen = gnomon::on_any::decision_for<gnomon::emulated<16>, Texel, Depth, Intensity>;
@@ -307,6 +306,10 @@ TEST_CASE(
     static_assert(std::same_as<chosen<rg8, code, byte>, gnomon::on_any::byte_decision<gnomon::emulated<16>, rg8>>);
     static_assert(std::same_as<chosen<rg16, code, code>, word_decision<gnomon::emulated<16>, rg16, code>>);
     static_assert(std::same_as<chosen<rg16, code, byte>, word_decision<gnomon::emulated<16>, rg16, byte>>);
+    using gnomon::tm8, gnomon::tm16, gnomon::on_any::ratio_decision;
+    static_assert(std::same_as<chosen<tm8, code, byte>, ratio_decision<gnomon::emulated<16>, tm8, byte>>);
+    static_assert(std::same_as<chosen<tm8, code, code>, gnomon::on_any::decision<gnomon::emulated<16>, tm8, code, code>>);
+    static_assert(std::same_as<chosen<tm16, code, byte>, ratio_decision<gnomon::emulated<16>, tm16, byte>>);
     static_assert(std::same_as<chosen<rga16, code, code>, gnomon::on_any::decision<gnomon::emulated<16>, rga16, code, code>>);
     const gnomon::image<rg16> map({64, 1}, rg16::caster(0.5f));
     const std::vector<code> z(64, 0xC000);

@@ -21,6 +21,12 @@ inline constexpr bool pairs_of = std::same_as<typename Texel::representation_typ
                                  std::same_as<typename Texel::channel_type, Channel>;
 template <texel_format Texel> inline constexpr bool byte_pairs = pairs_of<Texel, unorm8>;
 
+/// A depth and a mask of whole codes, not multiplied.
+template <texel_format Texel>
+inline constexpr bool ratios =
+    std::same_as<typename Texel::representation_type, depth_ratio> && Texel::channels == 2 &&
+    (std::same_as<typename Texel::channel_type, unorm8> || std::same_as<typename Texel::channel_type, unorm16>);
+
 /// Do lanes blend on a map, for a rule? Offsets are of 32 bits, a row has two texels for a load, and so many roundings move a pair of whole
 /// codes by less than floats have room for.
 template <texel_format Texel> [[nodiscard]] bool blended_on(image_view<const Texel> map, const rule& r) noexcept {

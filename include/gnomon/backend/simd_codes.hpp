@@ -90,6 +90,29 @@ template <typename Isa, texel_format Texel> struct byte_decision {
     }
 };
 
+/// A register of pairs of 16 bits: their depths, and their masks.
+template <typename Isa> struct word_pairs {
+    using ints = typename Isa::ints;
+    ints depth, mask;
+
+    GNOMON_LANES word_pairs load(const std::uint16_t* texels) noexcept {
+        const ints first = Isa::load(texels), second = Isa::load(texels + Isa::bytes / 2);
+        const ints even = Isa::even_lanes(first, second), odd = Isa::odd_lanes(first, second);
+        return {Isa::even_words(even, odd), Isa::odd_words(even, odd)};
+    }
+    /// A mask as the result is stored: a code of 16 bits itself, or the nearest of 8 bits, floor(t / 257) where t is M + 128 or, if that is
+    /// less, 65535; and that is the upper byte of t - floor(t / 256), for every t.
+    template <typename Intensity> GNOMON_LANES ints stored(const ints& mask) noexcept {
+        if constexpr (sizeof(Intensity) == 2) {
+            return mask;
+        } else {
+            const ints ones = Isa::repeat32(0xFFFFFFFF);
+            const ints t = Isa::exclusive_or(Isa::subtract_to_zero16(Isa::exclusive_or(mask, ones), words<Isa>(128)), ones);
+            return Isa::template shift_right16<8>(Isa::subtract16(t, Isa::template shift_right16<8>(t)));
+        }
+    }
+};
+
 /// Pairs of 16 bits, depths of 16 bits, results in codes: a register of results at a time, in whole numbers of 16 bits.
 ///
 /// With k roundings towards the light, and z already moved, a receiver is shadowed iff (M + k/2) Z > 65535 F, F = M - E + k, as above.
@@ -115,28 +138,15 @@ template <typename Isa, texel_format Texel, typename Intensity> struct word_deci
         return {any_decision::of(r), words<Isa>(codes), words<Isa>(k - 1), quick};
     }
 
-    /// As the result is stored: a code of 16 bits itself, or the nearest of 8 bits, floor(t / 257) where t is M + 128 or, if that is
-    /// less, 65535; and that is the upper byte of t - floor(t / 256), for every t.
-    GNOMON_LANES ints stored(const ints& mask) noexcept {
-        if constexpr (sizeof(Intensity) == 2) {
-            return mask;
-        } else {
-            const ints ones = Isa::repeat32(0xFFFFFFFF);
-            const ints t = Isa::exclusive_or(Isa::subtract_to_zero16(Isa::exclusive_or(mask, ones), words<Isa>(128)), ones);
-            return Isa::template shift_right16<8>(Isa::subtract16(t, Isa::template shift_right16<8>(t)));
-        }
-    }
     /// The shadows of a register of receivers. False if it does not tell. A mask less than two codes counts as two, so that clear
     /// texels, of which most maps are full, are surely lit. So is a mask of one code where E is 0; for a greater E it is unsure.
     GNOMON_LANES bool shade(const word_decision& by, const std::uint16_t* texels, const std::uint16_t* depths,
                             ints& shades) noexcept {
-        const ints first = Isa::load(texels), second = Isa::load(texels + at_once), two = words<Isa>(2);
-        const ints even = Isa::even_lanes(first, second), odd = Isa::odd_lanes(first, second);
-        const ints depth = Isa::even_words(even, odd), mask = Isa::odd_words(even, odd);
-        const ints z = Isa::subtract_to_zero16(Isa::load(depths), by.nearer);
+        const auto [depth, mask] = word_pairs<Isa>::load(texels);
+        const ints two = words<Isa>(2), z = Isa::subtract_to_zero16(Isa::load(depths), by.nearer);
         const ints high = Isa::subtract_to_zero16(Isa::multiply_high16(mask, z), by.fewer);                    // h - (k-1)
         const ints last = Isa::subtract_to_zero16(Isa::add16(Isa::subtract_to_zero16(mask, two), two), depth); // F - k
-        shades = Isa::both(stored(mask), Isa::greater16(high, last));
+        shades = Isa::both(word_pairs<Isa>::template stored<Intensity>(mask), Isa::greater16(high, last));
         return !Isa::any_equal16(high, last, high, Isa::subtract16(last, words<Isa>(1)));
     }
     GNOMON_LANES bool quick(const word_decision& by, const std::uint16_t* texels, const std::uint16_t* depths,
@@ -161,6 +171,51 @@ template <typename Isa, texel_format Texel, typename Intensity> struct word_deci
         const bool try_quick = by.asked_for_by_filters;
         for (int i = 0; i < count; i += step)
             if (!try_quick || !quick(by, pairs[i].stored, depths + i, to + i)) slow(by.any, pairs + i, depths + i, to + i);
+    }
+};
+
+/// Ratios, depths of 16 bits, results in codes. A receiver is shadowed iff Z > 65535 - T, T in 16 bits and Z already moved: no product. The
+/// other decision sees to a Z that is moved away from the light.
+template <typename Isa, texel_format Texel, typename Intensity> struct ratio_decision {
+    using ints = typename Isa::ints;
+    using storage = typename Texel::storage;
+    using any_decision = decision<Isa, Texel, std::uint16_t, Intensity>;
+    static constexpr int step = Isa::bytes / static_cast<int>(sizeof(Intensity));
+    static constexpr int at_once = Isa::bytes / 2; ///< 16-bit numbers in a register
+
+    any_decision any;
+    ints nearer; ///< codes by which z is moved
+    bool towards_light;
+
+    [[nodiscard]] static ratio_decision of(const rule& r) noexcept {
+        const int codes = codes_towards_light<Texel>(r.caster);
+        return {any_decision::of(r), words<Isa>(codes), codes >= 0};
+    }
+
+    /// The shadows of a register of depths, in words.
+    GNOMON_LANES ints shade(const ratio_decision& by, const storage* texels, const std::uint16_t* depths) noexcept {
+        const ints z = Isa::subtract_to_zero16(Isa::load(depths), by.nearer), ones = Isa::repeat32(0xFFFFFFFF);
+        if constexpr (sizeof(storage) == 1) {
+            const ints pairs = Isa::load(texels);
+            const ints both_bytes =
+                Isa::either(Isa::both(pairs, Isa::repeat32(0x00FF00FF)), Isa::template shift_left16<8>(pairs)); // 257 T
+            return Isa::upper_where_greater16(pairs, z, Isa::exclusive_or(both_bytes, ones));
+        } else {
+            const auto [depth, mask] = word_pairs<Isa>::load(texels);
+            const ints stored = word_pairs<Isa>::template stored<Intensity>(mask);
+            return Isa::both(stored, Isa::greater16(z, Isa::exclusive_or(depth, ones)));
+        }
+    }
+    GNOMON_LANES_VOID void rows(const ratio_decision& by, const Texel* texels, const std::uint16_t* depths, Intensity* to,
+                                int count) noexcept {
+        if (!by.towards_light) return any_decision::rows(by.any, texels, depths, to, count);
+        for (int i = 0; i < count; i += step) {
+            const ints first = shade(by, texels[i].stored, depths + i);
+            if constexpr (sizeof(Intensity) == 2)
+                Isa::store(to + i, first);
+            else
+                Isa::store(to + i, Isa::narrow16(first, shade(by, texels[i + at_once].stored, depths + i + at_once)));
+        }
     }
 };
 

@@ -25,6 +25,8 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         return std::type_identity<byte_decision<Isa, Texel>>{};
     else if constexpr (detail::pairs_of<Texel, unorm16> && codes && !std::same_as<Intensity, float>)
         return std::type_identity<word_decision<Isa, Texel, Intensity>>{};
+    else if constexpr (detail::ratios<Texel> && codes && sizeof(Intensity) <= sizeof(typename Texel::storage))
+        return std::type_identity<ratio_decision<Isa, Texel, Intensity>>{};
     else
         return std::type_identity<decision<Isa, Texel, Depth, Intensity>>{};
 }
