@@ -99,8 +99,8 @@ template <typename Isa, texel_format Texel, typename Depth> struct surface {
         Isa::settle(product);
         return product;
     }
-    /// As `apply` has them. In float what a bias adds is 2^-149 a rounding, which moves no mask above 2^-50, and of depths beside such a mask the sign
-    /// of the least; so it is added last, and not to empty texels: of what is denormal a product takes ten times as long.
+    /// As `apply` has them. In float what a bias adds is 2^-149 a rounding, which moves no mask above 2^-50, and of depths beside such a
+    /// mask the sign of the least; so it is added last, and not to empty texels: of what is denormal a product takes ten times as long.
     GNOMON_LANES pair moved(const surface& by, const floats& depth, const floats& mask, const masks& there) noexcept {
         if constexpr (!Texel::representation_type::premultiplied)
             return {depth, Isa::repeat(channel_type::scale)}; // which is not biased

@@ -1,5 +1,5 @@
-// gnomon: soft shadow maps. The decision in lanes, second part: what is left of a shadow and how it is stored, in doubles, formula by formula
-// as receive/decide.hpp has it. Included by simd_receive.hpp after simd_decision.hpp, and in its way.
+// gnomon: soft shadow maps. The decision in lanes, second part: what is left of a shadow and how it is stored, in doubles, by the formulas
+// of receive/decide.hpp. Included by simd_receive.hpp after simd_decision.hpp, and in its way.
 
 #include <gnomon/receive/receive.hpp>
 #include <gnomon/simd/region.hpp>
