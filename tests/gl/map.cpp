@@ -225,7 +225,7 @@ TEST_CASE("more rectangles than fit into one draw take two") {
     map_of<gnomon::rg8> map({64, 64, 8}, gl::backend(b.context));
     b.fake.calls.clear();
     for (int i = 0; i < gl::rectangle_list::capacity + 1; ++i) map.cast({i % 60, i / 60, i % 60 + 1, i / 60 + 1}, 0.5f);
-    CHECK(b.fake.calls["DrawArraysInstanced"] == 1); // there is no room for the last
+    CHECK(b.fake.calls["DrawArraysInstanced"] == 1);               // there is no room for the last
     CHECK(map.caster_framebuffer() == map.targets().into_casters); // who asks for it finds all in it
     CHECK(b.fake.calls["DrawArraysInstanced"] == 2);
     map.cast({0, 0, 1, 1}, 0.5f);
@@ -238,7 +238,7 @@ TEST_CASE("more rectangles than fit into one draw take two") {
 TEST_CASE("a clear draws over the tiles of casters and over no texel beside them") {
     bench b("3.3");
     map_of<gnomon::rg8> map({64, 64, 16}, gl::backend(b.context));
-    map.cast({16, 32, 20, 36}, 0.5f); // whose guard band reaches the tiles beside it
+    map.cast({16, 32, 20, 36}, 0.5f);            // whose guard band reaches the tiles beside it
     static_cast<void>(map.caster_framebuffer()); // has drawn them
     static std::vector<gl::surface> drawn;
     b.fake.table.BufferSubData = [](unsigned, std::ptrdiff_t, std::ptrdiff_t bytes, const void* data) {

@@ -30,8 +30,8 @@ namespace test {
     return rules;
 }
 
-/// A caster at some depth, or at the light's near plane, over a receiver, or over none, of which a filter left some share or all. One in eight is any bits, with a mask
-/// or without.
+/// A caster at some depth, or at the light's near plane, over a receiver or over none, of which a filter left some share or all. One in
+/// eight is any bits, with a mask or without.
 template <gnomon::texel_format Texel> [[nodiscard]] Texel any_filtered(dice& roll) {
     Texel t = Texel::clear();
     if (roll.one_in(8)) {
