@@ -310,10 +310,7 @@ TEST_CASE("bands of a box whose sums run have three quarters of the rows that th
     const auto jobs_of = [&]<typename Kernel, typename Backend>(Kernel, const Backend& run, bool parts) {
         band_scratch<rg8, Kernel> scratch(512);
         int jobs = 0;
-        const auto on = [&jobs](int count, const auto& job) {
-            jobs = count;
-            gnomon::sequential{}(count, job);
-        };
+        const auto on = [&jobs](int count, const auto&) { jobs = count; }; // nobody asks what they would do
         if (parts)
             gnomon::filter(run, map.view(), to.view(), all, scratch, on);
         else
