@@ -235,38 +235,45 @@ void add_all_gathers([[maybe_unused]] int size) {
 }
 
 #if GNOMON_X86
-/// Of pairs, and of one plane with a border for the taps.
-template <typename Vsm, typename Pcf> void add_rungs(const std::string& suffix, int size, Vsm vsm, Pcf pcf) {
-    const auto bytes = square(size) * bytes_of<rg32f, float, float>;
-    add("vsm" + suffix, "f32x2.f32", size, bytes, [size, vsm](benchmark::State& state) {
+template <typename Vsm> void add_vsm(const std::string& suffix, int size, Vsm vsm) {
+    add("vsm" + suffix, "f32x2.f32", size, square(size) * bytes_of<rg32f, float, float>, [size, vsm](benchmark::State& state) {
         const scene<rg32f, float> from({size * size, 1});
         auto intensity = make_row<float>(size);
         floors::measure(state, [&] { vsm(from.texels(0, 0).stored, &from.z(0, 0), &intensity(0, 0), size * size); });
     });
-    for (const int radius : {1, 2, 3})
-        add("pcf" + std::to_string(2 * radius + 1) + suffix, "f32x2.f32", size, bytes,
-            [size, radius, pcf](benchmark::State& state) {
-                const scene<rg32f, float> from({size, size});
-                image<float> map({size + 2 * radius, size + 2 * radius}, 1.0f);
-                for (int y = 0; y < size; ++y)
-                    for (int x = 0; x < size; ++x) map(x + radius, y + radius) = caster_depth(from.texels(x, y));
-                auto intensity = make_row<float>(size);
-                const int stride = static_cast<int>(map.view().stride() / static_cast<std::ptrdiff_t>(sizeof(float)));
-                floors::measure(state, [&] {
-                    for (int y = 0; y < size; ++y)
-                        pcf(&map(0, y), stride, radius, &from.z(y * size, 0), &intensity(y * size, 0), size);
-                });
+}
+/// On one plane, with a border for the taps.
+template <typename Pcf> void add_pcf(const std::string& suffix, int taps, int size, Pcf pcf) {
+    add("pcf" + std::to_string(taps) + suffix, "f32x2.f32", size, square(size) * 3 * sizeof(float),
+        [size, taps, pcf](benchmark::State& state) {
+            const scene<rg32f, float> from({size, size});
+            image<float> map({size + taps - 1, size + taps - 1}, 1.0f);
+            for (int y = 0; y < size; ++y)
+                for (int x = 0; x < size; ++x) map(x + taps / 2, y + taps / 2) = caster_depth(from.texels(x, y));
+            auto intensity = make_row<float>(size);
+            const int stride = static_cast<int>(map.view().stride() / static_cast<std::ptrdiff_t>(sizeof(float)));
+            floors::measure(state, [&] {
+                for (int y = 0; y < size; ++y) pcf(&map(0, y), stride, &from.z(y * size, 0), &intensity(y * size, 0), size);
             });
+        });
 }
 #endif
 void add_ladder([[maybe_unused]] int size) {
 #if GNOMON_X86
     if (best_lanes() < cpu_level::avx2) return;
-    add_rungs(".avx2", size, ladder::with_avx2::vsm<avx2>, ladder::with_avx2::pcf<avx2>);
+    const auto add_with = [size](const std::string& suffix, auto vsm, auto pcf3, auto pcf5, auto pcf7) {
+        add_vsm(suffix, size, vsm);
+        add_pcf(suffix, 3, size, pcf3);
+        add_pcf(suffix, 5, size, pcf5);
+        add_pcf(suffix, 7, size, pcf7);
+    };
+    namespace two = ladder::with_avx2;
+    namespace five = ladder::with_avx512;
+    add_with(".avx2", two::vsm<avx2>, two::pcf<avx2, 3>, two::pcf<avx2, 5>, two::pcf<avx2, 7>);
     if (best_lanes() >= cpu_level::avx512)
-        add_rungs("", size, ladder::with_avx512::vsm<avx512>, ladder::with_avx512::pcf<avx512>);
+        add_with("", five::vsm<avx512>, five::pcf<avx512, 3>, five::pcf<avx512, 5>, five::pcf<avx512, 7>);
     else
-        add_rungs("", size, ladder::with_avx2::vsm<avx2>, ladder::with_avx2::pcf<avx2>);
+        add_with("", two::vsm<avx2>, two::pcf<avx2, 3>, two::pcf<avx2, 5>, two::pcf<avx2, 7>);
 #endif
 }
 

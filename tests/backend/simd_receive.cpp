@@ -310,6 +310,8 @@ TEST_CASE(
     static_assert(std::same_as<chosen<tm8, code, byte>, ratio_decision<gnomon::emulated<16>, tm8, byte>>);
     static_assert(std::same_as<chosen<tm8, code, code>, gnomon::on_any::decision<gnomon::emulated<16>, tm8, code, code>>);
     static_assert(std::same_as<chosen<tm16, code, byte>, ratio_decision<gnomon::emulated<16>, tm16, byte>>);
+    static_assert(std::same_as<chosen<tm16, code, code>, ratio_decision<gnomon::emulated<16>, tm16, code>>);
+    static_assert(std::same_as<chosen<tm16, code, float>, gnomon::on_any::decision<gnomon::emulated<16>, tm16, code, float>>);
     static_assert(std::same_as<chosen<rga16, code, code>, gnomon::on_any::decision<gnomon::emulated<16>, rga16, code, code>>);
     const gnomon::image<rg16> map({64, 1}, rg16::caster(0.5f));
     const std::vector<code> z(64, 0xC000);

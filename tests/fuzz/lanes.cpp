@@ -135,13 +135,15 @@ template <typename Texel> void receivers(fuzz::bytes& in) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::bytes in(data, size);
-    switch (in.within(0, 6)) {
+    switch (in.within(0, 8)) {
     case 0: receivers<rgb8>(in); break;
     case 1: receivers<rg16>(in); break;
     case 2: receivers<rgba16>(in); break;
     case 3: receivers<rga16f>(in); break;
     case 4: receivers<rg32f>(in); break;
     case 5: receivers<rgba32f>(in); break;
+    case 6: receivers<rg8>(in); break;
+    case 7: receivers<tm8>(in); break;
     default: receivers<tm16>(in); break;
     }
     return 0;

@@ -113,8 +113,8 @@ template <typename Isa, typename F> bool in_lanes(F&& f) noexcept {
 /// for half and float pairs of e <= -2^24 m, which no caster is, before receivers beyond 2^24. Rows of any stride, in place too, as in
 /// receive/receive.hpp.
 ///
-/// In lanes goes a depth_mask with any effects, and a depth_ratio without a far bound, with depths and intensities of any kind. The paper's
-/// pair and channels of a user's go by the scalar loop, and all on a big-endian processor.
+/// In lanes goes a depth_mask with any effects, and a depth_ratio without a far bound, with depths and intensities of any kind. A
+/// depth_ratio with one, the paper's pair and channels of a user's go by the scalar loop, and all on a big-endian processor.
 /// \pre the processor has the lanes that are named: ask best_lanes(). Without asserts the scalar loop does it if it has not.
 template <typename Isa = best_isa, texel_row Row, depth_row Depths, intensity_row Intensities>
 void reconstruct(const Row& texels, const Depths& z, Intensities&& intensity, const rule& r = {}) noexcept {

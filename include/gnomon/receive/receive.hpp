@@ -39,10 +39,11 @@ template <typename To, typename From>
 [[nodiscard]] bool overtakes(strided_span<To> to, strided_span<From> from, int count) noexcept {
     const std::ptrdiff_t stride = to.stride() < 0 ? -to.stride() : to.stride();
     if (to.stride() != from.stride() || stride == 0 || count < 2) return false;
-    const auto address = [](const auto& first) { return reinterpret_cast<std::intptr_t>(&first); };
-    const std::ptrdiff_t apart = address(to[0]) - address(from[0]); // result i and what receiver i + k reads overlap if
+    const auto a = reinterpret_cast<std::uintptr_t>(&to[0]), b = reinterpret_cast<std::uintptr_t>(&from[0]);
+    const std::ptrdiff_t apart = a > b ? static_cast<std::ptrdiff_t>(a - b) : -static_cast<std::ptrdiff_t>(b - a);
+    // Result i and what receiver i + k reads overlap if least < k stride < least + both sizes.
     const auto to_size = static_cast<std::ptrdiff_t>(sizeof(To)), from_size = static_cast<std::ptrdiff_t>(sizeof(From));
-    const std::ptrdiff_t least = to.stride() > 0 ? apart - from_size : -apart - to_size; // least < k stride < least + both sizes
+    const std::ptrdiff_t least = to.stride() > 0 ? apart - from_size : -apart - to_size;
     const std::ptrdiff_t k = least < 0 ? 1 : least / stride + 1;
     return k < count && k * stride < least + to_size + from_size;
 }
@@ -70,7 +71,7 @@ void receive(const Row& texels, const Depths& z, Intensities&& intensity, const 
     for (int i = 0; i < count; ++i) out[i] = shadow_as<number>(read(row[i]), detail::as_depth(depths[i]), r);
 }
 
-/// A whole image of receivers, one to one on the texels of the map; what the three images share is written.
+/// A whole image of receivers, one to one on the texels of the map; the part that all three have is written.
 template <typename T, typename Z, intensity_number Intensity>
     requires texel_format<std::remove_const_t<T>> && depth_number<std::remove_const_t<Z>>
 void receive(image_view<T> map, image_view<Z> z, image_view<Intensity> intensity, const rule& r = {}) noexcept {

@@ -10,7 +10,8 @@ namespace gnomon::inline GNOMON_BUILD {
 ///
 /// In a premultiplied pair the error of a depth grows as 1/m; here that of a lone caster is in [0, 1/scale) at every mask but 0, from
 /// its depth to what is read. A mean of casters as they are stored loses less than a code each time it is rounded. All of it errs
-/// towards the light. So 8 bits decide as 16 bits do wherever a receiver is 1/255 of the light's range behind its casters. The price: a texture unit must not filter it, for t has to be multiplied by m first, as `sample` and the filters
+/// towards the light. So 8 bits decide as 16 bits do wherever a receiver is 1/255 of the light's range behind its casters. The price: a
+/// texture unit must not filter it, for t has to be multiplied by m first, as `sample` and the filters
 /// here do; and one division for every filtered texel. For whole codes; half and float have no such error to cure.
 struct depth_ratio {
     static constexpr bool premultiplied = false;
