@@ -2,9 +2,9 @@
 //
 // Errors are of 16 discs, each alone in its footprints; times of a map that is half covered, with receivers at any depth, since loops
 // that look at their texels are soon done with empty ones. Copying the same bytes is the floor, in the same run. Use
-// --benchmark_enable_random_interleaving=true and --benchmark_repetitions=9, and compare medians of cpu time within one run only. Counters: bytes (a texel), rmse and worst (intensity against the exact
-// filter in double, receivers 2 % of the range behind their caster, bias towards light; with suffix _shadow, towards shadow),
-// tiles (share of the map that was filtered).
+// --benchmark_enable_random_interleaving=true and --benchmark_repetitions=9, and compare medians of cpu time within one run only.
+// Counters: bytes (a texel), rmse and worst (intensity against the exact filter in double, receivers 2 % of the range behind their
+// caster, bias towards light; with suffix _shadow, towards shadow), tiles (share of the map that was filtered).
 #include <gnomon/gnomon.hpp>
 
 #include <benchmark/benchmark.h>
