@@ -20,7 +20,7 @@ using gnomon::rule;
 using test::dice;
 using test::for_each_isa;
 
-using ratio_rga8 = gnomon::texel<gnomon::unorm8, gnomon::depth_ratio, test::translucent>;
+using test::ratio_rga8;
 
 template <typename Texel> struct receivers {
     std::vector<Texel> texels;

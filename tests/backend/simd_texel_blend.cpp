@@ -23,7 +23,7 @@ using gnomon::strided_span;
 using test::dice;
 using test::for_each_isa;
 
-using ratio_rga8 = gnomon::texel<gnomon::unorm8, gnomon::depth_ratio, test::translucent>;
+using test::ratio_rga8;
 
 /// A map whose memory ends where its last texel does: the address sanitizer watches.
 template <typename Texel> struct tight_map {

@@ -23,6 +23,7 @@ using paper_rgba16 = paper<gnomon::unorm16, both>;
 using paper_rgba16f = paper<gnomon::half16, both>;
 using paper_rgba32f = paper<gnomon::float32, both>;
 
+using ratio_rga8 = gnomon::texel<gnomon::unorm8, gnomon::depth_ratio, translucent>;
 using ratio_rgba8 = gnomon::texel<gnomon::unorm8, gnomon::depth_ratio, both>;
 using ratio_rgba16 = gnomon::texel<gnomon::unorm16, gnomon::depth_ratio, both>;
 
@@ -48,6 +49,7 @@ TYPE_TO_STRING_AS("rgba16f", gnomon::rgba16f);
 TYPE_TO_STRING_AS("rgba32f", gnomon::rgba32f);
 TYPE_TO_STRING_AS("tm8", gnomon::tm8);
 TYPE_TO_STRING_AS("tm16", gnomon::tm16);
+TYPE_TO_STRING_AS("ratio_rga8", test::ratio_rga8);
 TYPE_TO_STRING_AS("ratio_rgba8", test::ratio_rgba8);
 TYPE_TO_STRING_AS("ratio_rgba16", test::ratio_rgba16);
 TYPE_TO_STRING_AS("paper8", test::paper8);

@@ -80,7 +80,8 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         Isa::store(past, Isa::keep(beyond, Isa::repeat(1.0f)));
         for (int i = 0; i < step; i += Isa::double_lanes) {
             const auto faded = shades::faded(shades::wide(e + i), shades::wide(m + i), shades::wide(depth + i), by.by_rule->fade);
-            shades::store(to + i, shades::wide(dark + i), shades::where_positive(shades::wide(past + i), faded, Isa::repeat(1.0)));
+            shades::store(to + i, shades::wide(dark + i),
+                          shades::where_greater(shades::wide(past + i), Isa::repeat(0.0), faded, Isa::repeat(1.0)));
         }
     }
     /// Stores shadows up to their far bound. False, and nothing stored, if lanes do not tell.

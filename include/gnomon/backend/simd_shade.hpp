@@ -23,10 +23,9 @@ template <typename Isa, texel_format Texel, typename Intensity> struct shade {
     GNOMON_LANES doubles within(const doubles& v, double most) noexcept {
         return Isa::smaller(Isa::larger(v, Isa::repeat(0.0)), Isa::repeat(most));
     }
-    /// Where a is above nothing `v`, else `other`.
-    GNOMON_LANES doubles where_positive(const doubles& a, const doubles& v, const doubles& other) noexcept {
-        const doubles none = Isa::repeat(0.0);
-        return Isa::add(Isa::keep_greater(a, none, v), Isa::drop_greater(a, none, other));
+    /// Where a > b `v`, else `other`.
+    GNOMON_LANES doubles where_greater(const doubles& a, const doubles& b, const doubles& v, const doubles& other) noexcept {
+        return Isa::add(Isa::keep_greater(a, b, v), Isa::drop_greater(a, b, other));
     }
     /// a b, rounded before anything is added.
     GNOMON_LANES doubles times(const doubles& a, const doubles& b) noexcept {

@@ -145,7 +145,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         const doubles half = Isa::repeat(0.5);
         const doubles near_half = Isa::subtract(shades::times(m, z), Isa::subtract(m, e));
         const doubles far_half = Isa::subtract(e, shades::times(m, Isa::subtract(Isa::repeat(1.0), z)));
-        return Isa::add(Isa::keep_greater(half, z, near_half), Isa::drop_greater(half, z, far_half));
+        return shades::where_greater(half, z, near_half, far_half);
     }
     /// `left` where behind_caster of a depth16 holds.
     GNOMON_LANES doubles left_behind_codes(const moving& by, const pair& of, const doubles& z, const doubles& left) noexcept {
@@ -154,7 +154,7 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
         const doubles e = Isa::larger(of.e, none), m = Isa::larger(of.m, none);
         const doubles kept =
             Isa::keep_greater(shades::times(e, last), shades::times(m, rest), Isa::keep_greater(depth, none, left));
-        return Isa::add(Isa::keep_greater(none, rest, left), Isa::drop_greater(none, rest, kept));
+        return shades::where_greater(none, rest, left, kept);
     }
     /// Has every sum a number? What is infinite beside the map may have been weighed by nothing, and left none.
     GNOMON_LANES bool are_numbers(const blended& of) noexcept {
@@ -190,8 +190,8 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
                 const pair bound = moved(by.far_bound, far_bound, mask);
                 const doubles z = shades::wide(bound_z + i);
                 const doubles faded = by.fade > 0.0f ? shades::faded(bound.e, bound.m, z, by.fade) : none;
-                left = shades::where_positive(behind(bound, z), faded, all);
-                left = shades::where_positive(Isa::load(far_bound), left, all);
+                left = shades::where_greater(behind(bound, z), none, faded, all);
+                left = shades::where_greater(Isa::load(far_bound), none, left, all);
             }
             const pair caster = moved(by.caster, of.code[Texel::depth_index] + i, mask);
             if constexpr (in_codes) {
