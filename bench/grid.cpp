@@ -5,6 +5,7 @@
 //     grow32     for_each_region_within four texels of the casters' tiles: what a filter asks
 //     left32     for_each_region_left of the casters' last place, half a tile away: what is cleared
 //     mark, clear, touches    one caster marked; all forgotten; one receiver asked
+//     scan32     the floor of the first three: the ends of every run of marks, each row by itself, and nothing merged
 //
 // The counter `calls` tells how many there were. Of whole grids 64 take turns, so that no branch learns them.
 #include <gnomon/grid/grown_regions.hpp>
@@ -12,7 +13,10 @@
 
 #include <benchmark/benchmark.h>
 
+#include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -42,6 +46,17 @@ tile_grid marked(int x_offset, unsigned seed = 1) {
     return grid;
 }
 
+/// A grid as one word a row, which is all that a scan has to read.
+using bits = std::array<std::uint64_t, side / tile>;
+bits bits_of(const tile_grid& grid) {
+    bits rows{};
+    for_each_tile_rect(grid, [&rows](tile_rect t) {
+        for (int y = t.y0; y < t.y1; ++y)
+            rows[static_cast<std::size_t>(y)] |= (std::uint64_t{1} << t.x1) - (std::uint64_t{1} << t.x0);
+    });
+    return rows;
+}
+
 /// Runs `work`, so many calls, which answers something that depends on all they did.
 template <typename Work> void add(const char* name, int calls, Work work) {
     benchmark::RegisterBenchmark(name, [work, calls](benchmark::State& state) {
@@ -60,6 +75,19 @@ int main(int count, char** words) {
     }
     const std::vector<texel_rect> casters = clusters(0);
     tile_grid grid({side, side}, tile);
+    std::vector<bits> plain;
+    for (const tile_grid& each : now) plain.push_back(bits_of(each));
+    add("scan32", turns, [&plain] {
+        int sum = 0;
+        for (const bits& rows : plain)
+            for (std::uint64_t row : rows)
+                while (row != 0) {
+                    const std::uint64_t first = row & (~row + 1), rest = row + first; // past the run's end lies what it carries into
+                    sum += std::countr_zero(first) + std::countr_zero(rest);
+                    row &= rest;
+                }
+        return sum;
+    });
     add("merge32", turns, [&now] {
         int sum = 0;
         for (const tile_grid& each : now) for_each_tile_rect(each, [&sum](tile_rect t) { sum += t.x0 + t.y1; });

@@ -25,7 +25,7 @@ TIMES = {
         "remap/u8x2.f32/1024": 45, "vsm/f32x2.f32/128": 3, "pcf7.avx2/f32x2.f32/128": 50,
     },
     "sparse": {"dense/u8x2/k9/1024": 100, "10pct/u8x2/k9/1024": 15, "50pct/u8x2/k9/1024": 90, "85pct/u8x2/k9/1024": 98, "empty/u8x2/k9/1024": 0.5},
-    "grid": {"merge32": 3000},
+    "grid": {"merge32": 3000, "scan32": 600, "mark": 500},
     "pipeline": {"copy/u8x2/k9/1024": 2, "stream/u8x2/k9/1024": 1, "receive.copy/u8x2/k9/1024": 3, "both/u8x2/k9/1024": 10},
     "threads": {f"{what}/{count}/u8x2/k9/1024/real_time": time for what, times in
                 {"filter": (10, 5), "sparse": (9, 6), "receive": (8, 5), "filter.avx2": (9, 5)}.items() for count, time in zip((1, 2), times)},
@@ -37,7 +37,7 @@ for size in (256, 512, 1024, 2048, 4096):  # five cells are 2 and twenty are 8, 
     TIMES["filter"][f"copy/u16x2/k0/{size}"] = 2
     for taps in (3, 5, 7, 9, 13):
         TIMES["filter"] |= {f"fast/u16x2/k{taps}/{size}": 4, f"sep/u16x2/k{taps}/{size}": 8 if size == 256 else 32}
-COUNTERS = {"10pct/u8x2/k9/1024": {"area": 0.125}, "50pct/u8x2/k9/1024": {"area": 0.6}, "merge32": {"calls": 10},
+COUNTERS = {"10pct/u8x2/k9/1024": {"area": 0.125}, "50pct/u8x2/k9/1024": {"area": 0.6}, "merge32": {"calls": 10}, "scan32": {"calls": 10}, "mark": {"calls": 5},
             "simd/sun/e2/1024": {"items_per_second": 7e6}}
 EXPECTED = {
     "filter.u8x2.k9.vs_opencv": 4, "filter.u8x2.k9.vs_opencv.avx2": 2, "filter.u8x2.k9.vs_opencv.exact": 0.5,
@@ -58,7 +58,7 @@ EXPECTED = {
     "receive.bilinear.u8x2.vs_remap_l3": 4.5, "receive.f32x2.vs_vsm_l2": 1.5, "raster.sun.e2.over_copy": 1.6,
     "receive.f32x2.vs_opencv_l3": 4, "receive.bilinear.u8x2.of_gather": 0.7, "receive.bilinear.u8x2.of_gather_l2.avx2": 0.6,
     "sparse.u8x2.10pct.over_ideal": 1.2, "sparse.u8x2.50pct.over_ideal": 1.5, "sparse.u8x2.85pct.of_dense": 0.98, "sparse.empty.of_dense": 0.005,
-    "grid.merge32.ns": 300, "pipeline.u8x2.blur_receive.over_sum_of_floors": 2.5,
+    "grid.merge32.ns": 300, "grid.scan32.ns": 60, "grid.mark.ns": 100, "grid.merge32.over_scan": 5, "pipeline.u8x2.blur_receive.over_sum_of_floors": 2.5,
     "threads2.scaling": 2, "threads2.scaling.avx2": 1.8, "threads2.sparse.scaling": 1.5, "threads2.receive.scaling": 1.6,
     "flags.o2_plain.over_o3_native": 1.1, "flags.o2_plain.over_o3_native.worst": 1.5,
     "flags.o2_plain.over_o3_native.avx2": 1.2, "flags.o2_plain.over_o3_native.worst.avx2": 1.2, "flags.asked.over_unasked.a.64": 1.05,
