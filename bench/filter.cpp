@@ -177,6 +177,7 @@ int main(int count, char** words) {
     for (const int size : sizes) {
         add_box<box<1>, rg8>(size);
         add_box<box<4>, rg8>(size);
+        add_box<box<8>, rg8>(size);
         add_box<box<32>, rg8>(size);
         add_box<box<8>, rg32f>(size);
         add_box<box<32>, rg32f>(size);

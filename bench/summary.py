@@ -47,16 +47,16 @@ def filters(path):
             if len(logs) == len(TAPS) * len(SIZES):
                 ratios[f"filter.{of}.geomean.vs_opencv{suffix}"] = math.exp(sum(logs) / len(logs))
     for what, suffix in (("box", ""), ("box.avx2", ".avx2")):
-        narrow, wide = (time.get(f"{what}/u8x2/k{taps}/1024") for taps in (3, 65))
-        if narrow and wide:
-            for exactly in ("", ".exact"):  # a box is exact either way
-                ratios[f"filter.box.u8x2.r32.over_r1{exactly}{suffix}"] = wide / narrow
-            if theirs := time.get("boxcv/u8x2/k65/1024"):
-                ratios[f"filter.box.u8x2.r32.vs_opencv{suffix}"] = theirs / wide
-        if wide := time.get(f"{what}/f32x2/k65/1024"):
-            ratios[f"filter.box.f32x2.r32.over_r8{suffix}"] = wide / time[f"{what}/f32x2/k17/1024"]
-            if theirs := time.get("boxcv/f32x2/k65/1024"):
-                ratios[f"filter.box.f32x2.r32.vs_opencv{suffix}"] = theirs / wide
+        for of in ("u8x2", "f32x2"):
+            at = {radius: time.get(f"{what}/{of}/k{2 * radius + 1}/1024") for radius in (1, 8, 32)}
+            for radius in (1, 8):
+                if at[radius] and at[32]:
+                    ratios[f"filter.box.{of}.r32.over_r{radius}{suffix}"] = at[32] / at[radius]
+            if of == "u8x2" and at[1] and at[32]:
+                ratios[f"filter.box.u8x2.r32.over_r1.exact{suffix}"] = at[32] / at[1]  # a box of bytes is exact either way
+            for radius in (1, 32):
+                if at[radius] and (theirs := time.get(f"boxcv/{of}/k{2 * radius + 1}/1024")):
+                    ratios[f"filter.box.{of}.r{radius}.vs_opencv{suffix}"] = theirs / at[radius]
     return ratios
 
 

@@ -8,7 +8,6 @@
 #include <gnomon/filter/separable.hpp>
 #include <gnomon/simd/region.hpp>
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -16,21 +15,6 @@
 
 #ifdef GNOMON_ON
 namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
-
-/// sum / Divisor to nearest, halves upwards, for sums up to Divisor * codes: times 2^shift / Divisor rounded up. That is right as long
-/// as what rounding up adds, at most sum * excess / 2^shift / Divisor, stays below one of the steps of 1 / Divisor.
-template <std::uint64_t Divisor, std::uint64_t Codes> struct division {
-    static constexpr std::uint64_t largest = Divisor * Codes + Divisor / 2;
-    static constexpr int shift = 31 + std::bit_width(Divisor);
-    static constexpr std::uint64_t factor = ((std::uint64_t{1} << shift) + Divisor - 1) / Divisor;
-    static constexpr std::uint64_t excess = factor * Divisor - (std::uint64_t{1} << shift);
-    static constexpr bool exact =
-        largest < (std::uint64_t{1} << 32) && factor < (std::uint64_t{1} << 32) && excess * largest < (std::uint64_t{1} << shift);
-};
-
-/// The sum of a window, divided by its weight.
-template <kernel Kernel, texel_format Texel>
-using mean_of = division<std::uint64_t{Kernel::total} * Kernel::total, static_cast<std::uint64_t>(Texel::channel_type::scale)>;
 
 /// Whole codes under equal weights.
 template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
@@ -61,11 +45,11 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
         accumulate(sums, window - channels + count);
         const std::uint32_t* const first = all_ + step - channels;
         const ints half = Isa::repeat32(static_cast<std::uint32_t>(Kernel::total) * Kernel::total / 2);
-        const ints factor = Isa::repeat32(static_cast<std::uint32_t>(mean_of<Kernel, Texel>::factor));
+        const ints factor = Isa::repeat32(static_cast<std::uint32_t>(mean_of<Kernel, Texel, 32>::factor));
         for (int i = 0; i < count; i += step) {
             const ints sum_of_window = Isa::subtract32(Isa::load(first + window + i), Isa::load(first + i));
-            Isa::store_low(to + i,
-                           Isa::template multiply_shift32<mean_of<Kernel, Texel>::shift>(Isa::add32(sum_of_window, half), factor));
+            Isa::store_low(
+                to + i, Isa::template multiply_shift32<mean_of<Kernel, Texel, 32>::shift>(Isa::add32(sum_of_window, half), factor));
         }
     }
 
@@ -74,11 +58,12 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
     void accumulate(const std::uint32_t* sums, int count) noexcept {
         ints before = Isa::repeat32(0);
         for (int i = 0; i < count; i += step) {
-            ints a = Isa::load(sums + i);
-            a = added<channels>(a);
-            a = Isa::add32(a, before);
-            Isa::store(all_ + step + i, a);
-            before = Isa::template repeat_last32<channels>(a);
+            const ints here = added<channels>(Isa::load(sums + i)), all = Isa::add32(here, before);
+            Isa::store(all_ + step + i, all);
+            if constexpr (step % channels == 0) // what the next register waits for is one addition
+                before = Isa::add32(before, Isa::template repeat_last32<channels>(here));
+            else
+                before = Isa::template repeat_last32<channels>(all);
         }
     }
 
@@ -93,12 +78,12 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
     alignas(64) std::uint32_t all_[static_cast<std::size_t>(step + line_size)]; // from a register of zeros on
 };
 
-/// Can lanes run sums of this texel and kernel? A kernel of one tap is as quick without.
+/// Can lanes run sums of this texel and kernel? A kernel of one tap is as quick without, and a small box quicker.
 template <kernel Kernel, texel_format Texel>
 inline constexpr bool runs_sums = [] {
     if constexpr (Texel::channel_type::whole_codes && Texel::representation_type::premultiplied && Kernel::radius > 0 &&
-                  detail::is_box<typename detail::sums<Texel, Kernel>::weights_of>)
-        return mean_of<Kernel, Texel>::exact;
+                  !is_small_box<Kernel, Texel> && detail::is_box<typename detail::sums<Texel, Kernel>::weights_of>)
+        return mean_of<Kernel, Texel, 32>::exact;
     else
         return false;
 }();

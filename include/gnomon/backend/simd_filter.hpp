@@ -7,6 +7,7 @@
 
 #include <gnomon/backend/simd_wide.hpp>
 #include <gnomon/backend/simd_words.hpp>
+#include <gnomon/backend/simd_small_box.hpp>
 #include <gnomon/filter/separable.hpp>
 #include <gnomon/simd/region.hpp>
 
@@ -37,7 +38,9 @@ template <typename Isa, kernel Kernel, texel_format Texel> consteval auto choose
     using by = detail::sums<Texel, Kernel>;
     constexpr bool bytes = detail::premultiplied_bytes<Texel> && in_eight_bits<typename by::weights_of>;
     constexpr bool words = by::stored_between;
-    if constexpr ((bytes || words) && Texel::channels == 2)
+    if constexpr (is_small_box<Kernel, Texel>)
+        return std::type_identity<small_box<Isa, Kernel, Texel>>{};
+    else if constexpr ((bytes || words) && Texel::channels == 2)
         return std::type_identity<pair_filter<Isa, Kernel, Texel>>{};
     else if constexpr (bytes || words)
         return std::type_identity<word_filter<Isa, Kernel, Texel>>{};

@@ -17,7 +17,7 @@ namespace gnomon::inline GNOMON_BUILD {
 ///                  box, if 256 is a multiple of its total, or if it is wider than R = 32
 ///     unorm16      weights of 15 bits, and rounded twice, after the columns and after the row: at most one code off instead of half
 ///     half, float  weights of 24 bits if the total is no power of two, and single precision: every product and every sum is rounded,
-///                  R+2 times a pass
+///                  R+2 times a pass; a box of radius 12 and more is quicker without, where its sums run (see backend/simd_double_box.hpp)
 ///     depth_ratio  in 16 bits weights of ten bits, up to R = 128, and then no error but the two roundings; in 8 bits the kernel as it is
 ///
 /// Weights are within one unit of the kernel's proportions, and these errors are against what such weights give; how far that may
