@@ -32,15 +32,17 @@ namespace gnomon::inline GNOMON_BUILD {
 
 namespace detail {
 
-/// Each target's code goes by its own name.
+/// Each target's code goes by its own name. What lanes leave, for rows are shorter than a register of theirs, narrower ones may take.
 template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
                std::span<line_element<Texel>> scratch) noexcept {
 #if GNOMON_X86
     if constexpr (std::same_as<Isa, avx512>)
-        return on_avx512::filter<avx512, Kernel, Texel>(from, to, region, scratch);
+        return on_avx512::filter<avx512, Kernel, Texel>(from, to, region, scratch) ||
+               filter_on<avx2, Kernel, Texel>(from, to, region, scratch);
     else if constexpr (std::same_as<Isa, avx2>)
-        return on_avx2::filter<avx2, Kernel, Texel>(from, to, region, scratch);
+        return on_avx2::filter<avx2, Kernel, Texel>(from, to, region, scratch) ||
+               on_any::filter<sse2, Kernel, Texel>(from, to, region, scratch);
     else
 #endif
         return on_any::filter<Isa, Kernel, Texel>(from, to, region, scratch);
@@ -48,14 +50,14 @@ bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect re
 
 } // namespace detail
 
-/// Filters and receives in lanes: simd<> in those the processor has, simd<avx2> and the like in these alone, simd<Yours> in a
+/// Filters and receives in lanes: simd<> in those the processor has, simd<avx2> and the like in none beyond these, simd<Yours> in a
 /// simd_isa of your own, which is compiled for what the file is, and not asked whether the processor has it. A name is there on its
 /// own processors: neon on ARM, wasm128 in WebAssembly, the others but emulated on x86. Results are those of `scalar`, bit for bit;
 /// of a NaN in half or float texels only that it is one, and but for half and float pairs of e <= -2^24 m, which no caster is, before
 /// receivers beyond 2^24.
 ///
 /// What lanes do not know is left to `scalar`: channels of a user's, `narrow` kernels but of floats, radii beyond 256, maps
-/// narrower than a register or wider than 2^31 channels with what kernels reach beyond, and of ratios far bounds, contributions and
+/// with rows of less than 16 numbers or of more than 2^31 with what kernels reach beyond, and of ratios far bounds, contributions and
 /// what is not exact in double; of decisions see backend/reconstruct.hpp. Too narrow a scratch only cuts a region into strips. A
 /// filter takes up to 48 kB of the stack.
 /// \pre the processor has the lanes that are named: ask best_lanes(). Without asserts all is left to `scalar` if it has not. simd<>
