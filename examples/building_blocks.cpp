@@ -27,7 +27,7 @@ int main() {
 
     // blur: marked tiles only
     filter_scratch<pair, blur> scratch(size.width);
-    filter(scalar{}, casters, soft, tiles, scratch);
+    filter(simd<>{}, casters, soft, tiles, scratch);
     int area = 0;
     for_each_region(tiles, [&area](texel_rect r) { area += r.width() * r.height(); });
     std::printf("filtered %d of %d texels\n", area, size.width * size.height);
@@ -42,7 +42,7 @@ int main() {
 
     // decide: a row of receivers at depth 0.75; and what is left of a lightmap's 0.8 over an ambient floor of 0.1
     std::vector<float> z(size.width, 0.75f), intensity(size.width);
-    receive(soft.row_span(180), z, intensity);
+    receive(simd<>{}, soft.row_span(180), z, intensity);
     for (const int x : {260, 268, 272, 320}) {
         const float shade = intensity.at(std::size_t(x));
         std::printf("x %d: shadow %.3f, light %.3f, caster at %.3f\n", x, double(shade), double(mask_light(0.8f, shade, 0.1f)),
