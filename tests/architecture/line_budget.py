@@ -1,8 +1,8 @@
 """What every file of a user pays for an include: lines that are left after the preprocessor, without the empty ones."""
 import headers
 
-TEXEL, STORAGE, FILTER, UMBRELLA, INTRINSICS = 13000, 19000, 20000, 24000, 68000
-OWN = {"gnomon/backend/reconstruct.hpp": 62000}  # what it costs to drop in reconstruction by itself; 41,000 of them are intrinsics
+TEXEL, STORAGE, FILTER, UMBRELLA, INTRINSICS = 13000, 19000, 20000, 24000, 68500
+OWN = {"gnomon/backend/reconstruct.hpp": 62500}  # what it costs to drop in reconstruction by itself; 41,000 of them are intrinsics
 STORES = {"gnomon/texel/image.hpp", "gnomon/grid/tile_grid.hpp"}  # these own memory, so they include <vector>
 HEAVY = {"algorithm", "cmath", "functional", "memory", "ranges", "string", "iostream"}
 LIGHT_FOLDERS = {"texel", "grid", "filter", "receive", "backend"}
@@ -41,5 +41,5 @@ headers.main(check, [
     ("gnomon/filter/kernel.hpp", "#include <algorithm>\n", "too heavy"),
     ("gnomon/texel/half.hpp", "#include <regex>\n", "lines after preprocessing"),
     ("gnomon/soft_shadow_map.hpp", "#include <regex>\n", "gnomon/gnomon.hpp"),
-    ("gnomon/backend/reconstruct.hpp", "#include <regex>\n", "62000 are allowed"),
+    ("gnomon/backend/reconstruct.hpp", "#include <regex>\n", "62500 are allowed"),
 ])

@@ -303,7 +303,9 @@ TEST_CASE(
     using gnomon::rg16, gnomon::rga16, gnomon::on_any::word_decision;
     using code = std::uint16_t;
     using byte = std::uint8_t;
-    static_assert(std::same_as<chosen<rg8, code, byte>, gnomon::on_any::byte_decision<gnomon::emulated<16>, rg8>>);
+    static_assert(std::same_as<chosen<rg8, code, byte>, gnomon::on_any::byte_decision<gnomon::emulated<16>, rg8, byte>>);
+    static_assert(std::same_as<chosen<rg8, code, float>, gnomon::on_any::byte_decision<gnomon::emulated<16>, rg8, float>>);
+    static_assert(std::same_as<chosen<rg16, code, float>, word_decision<gnomon::emulated<16>, rg16, float>>);
     static_assert(std::same_as<chosen<rg16, code, code>, word_decision<gnomon::emulated<16>, rg16, code>>);
     static_assert(std::same_as<chosen<rg16, code, byte>, word_decision<gnomon::emulated<16>, rg16, byte>>);
     using gnomon::tm8, gnomon::tm16, gnomon::on_any::ratio_decision;

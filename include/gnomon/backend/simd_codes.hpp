@@ -16,11 +16,21 @@ template <typename Isa> [[nodiscard]] GNOMON_INLINE typename Isa::ints words(int
     return Isa::repeat32(std::uint32_t{static_cast<std::uint16_t>(n)} * 0x10001u);
 }
 
-/// Pairs of bytes, depths of 16 bits, results of 8: a register of results at a time, in whole numbers of 16 bits.
+/// Floats that a register of codes stands for, in so many registers.
+template <typename Isa, channel Channel> GNOMON_INLINE void store_fractions(float* to, const typename Isa::ints& codes) noexcept {
+    using storage = typename Channel::storage;
+    alignas(64) storage made[static_cast<std::size_t>(Isa::bytes) / sizeof(storage)];
+    Isa::store(made, codes);
+    GNOMON_UNROLL(4)
+    for (int i = 0; i < Isa::bytes / static_cast<int>(sizeof(storage)); i += Isa::float_lanes)
+        Isa::store(to + i, Isa::fraction(Isa::numbers(Isa::widen32(made + i)), Channel::scale));
+}
+
+/// Pairs of bytes, depths of 16 bits: a register of bytes at a time, in whole numbers of 16 bits.
 ///
 /// In half codes a pair is e = 2E - k and m = 2M + k, with k the roundings towards the light; z is Z, already moved, and R = 65535 - Z.
 /// A receiver is shadowed iff 65535 e > m R, see receive/decide.hpp; that is, iff m Z > 65535 f with f = m - e = 2 (M-E+k).
-template <typename Isa, texel_format Texel> struct byte_decision {
+template <typename Isa, texel_format Texel, typename Intensity> struct byte_decision {
     using ints = typename Isa::ints;
     static constexpr int step = Isa::bytes;
 
@@ -38,12 +48,25 @@ template <typename Isa, texel_format Texel> struct byte_decision {
                 words<Isa>(light ? k : 0),     words<Isa>(shadow ? k : 0),     usual};
     }
 
+    /// Stores a register of masks, or of nothing.
+    GNOMON_LANES_VOID void store(Intensity* to, const ints& bytes) noexcept {
+        if constexpr (std::same_as<Intensity, float>) {
+            store_fractions<Isa, unorm8>(to, bytes);
+        } else if constexpr (std::same_as<Intensity, std::uint16_t>) { // 257 times what it was
+            const ints low = Isa::low_pairs8(bytes, bytes), high = Isa::high_pairs8(bytes, bytes);
+            Isa::store(to, Isa::first_half(low, high));
+            Isa::store(to + Isa::bytes / 2, Isa::second_half(low, high));
+        } else {
+            Isa::store(to, bytes);
+        }
+    }
+
     /// k = 1. The high half of 128 m Z, h, against 128 f = 256 (M-E) + 256:
     ///     h >= 128 f       128 m Z >= 65536 * 128 f > 65535 * 128 f     shadowed
     ///     h <= 128 f - 2   128 m Z < 65536 (128 f - 1) <= 65535 * 128 f, for 128 f <= 65536     lit
     /// What is left, h = 128 f - 1, is unsure; so is h = 0 where E > M and the difference counts as nothing, since there every Z that
     /// is not 0 is shadowed. One receiver in 10,000, unless all lie where their shadow begins.
-    GNOMON_LANES bool quick(const ints& moved, const std::uint8_t* texels, const std::uint16_t* depths, std::uint8_t* to) noexcept {
+    GNOMON_LANES bool quick(const ints& moved, const std::uint8_t* texels, const std::uint16_t* depths, Intensity* to) noexcept {
         const ints low = Isa::repeat32(0x00FF00FF), half = Isa::repeat32(0x007F007F);
         ints high[2], last[2], shade[2];
         GNOMON_UNROLL(2)
@@ -55,7 +78,7 @@ template <typename Isa, texel_format Texel> struct byte_decision {
             shade[i] = Isa::upper_where_greater16(pairs, high[i], last[i]);
         }
         if (Isa::any_equal16(high[0], last[0], high[1], last[1])) return false;
-        Isa::store(to, Isa::narrow16(shade[0], shade[1]));
+        store(to, Isa::narrow16(shade[0], shade[1]));
         return true;
     }
 
@@ -74,11 +97,11 @@ template <typename Isa, texel_format Texel> struct byte_decision {
         return Isa::upper_where_greater16(pairs, Isa::either(e, Isa::greater16(depths, by.last)), Isa::either(high, lit));
     }
 
-    static void slow(const byte_decision& by, const std::uint8_t* texels, const std::uint16_t* depths, std::uint8_t* to) noexcept {
+    static void slow(const byte_decision& by, const std::uint8_t* texels, const std::uint16_t* depths, Intensity* to) noexcept {
         const ints first = exact(Isa::load(texels), Isa::load(depths), by);
-        Isa::store(to, Isa::narrow16(first, exact(Isa::load(texels + Isa::bytes), Isa::load(depths + Isa::bytes / 2), by)));
+        store(to, Isa::narrow16(first, exact(Isa::load(texels + Isa::bytes), Isa::load(depths + Isa::bytes / 2), by)));
     }
-    GNOMON_LANES_VOID void rows(const byte_decision& by, const Texel* pairs, const std::uint16_t* depths, std::uint8_t* to,
+    GNOMON_LANES_VOID void rows(const byte_decision& by, const Texel* pairs, const std::uint16_t* depths, Intensity* to,
                                 int count) noexcept {
         const std::uint8_t* const texels = pairs->stored;
         const ints moved = by.nearer;
@@ -100,10 +123,10 @@ template <typename Isa> struct word_pairs {
         const ints even = Isa::even_lanes(first, second), odd = Isa::odd_lanes(first, second);
         return {Isa::even_words(even, odd), Isa::odd_words(even, odd)};
     }
-    /// A mask as the result is stored: a code of 16 bits itself, or the nearest of 8 bits, floor(t / 257) where t is M + 128 or, if that is
+    /// A mask as the result is made of it: a code of 16 bits itself, or the nearest of 8 bits, floor(t / 257) where t is M + 128 or, if that is
     /// less, 65535; and that is the upper byte of t - floor(t / 256), for every t.
     template <typename Intensity> GNOMON_LANES ints stored(const ints& mask) noexcept {
-        if constexpr (sizeof(Intensity) == 2) {
+        if constexpr (sizeof(Intensity) > 1) {
             return mask;
         } else {
             const ints ones = Isa::repeat32(0xFFFFFFFF);
@@ -113,7 +136,7 @@ template <typename Isa> struct word_pairs {
     }
 };
 
-/// Pairs of 16 bits, depths of 16 bits, results in codes: a register of results at a time, in whole numbers of 16 bits.
+/// Pairs of 16 bits, depths of 16 bits: a register of 16-bit numbers at a time, or of bytes.
 ///
 /// With k roundings towards the light, and z already moved, a receiver is shadowed iff (M + k/2) Z > 65535 F, F = M - E + k, as above.
 /// Let h be the high half of M Z. For k of 1 or 2, and E <= M, where F is 65537 at most,
@@ -124,8 +147,8 @@ template <typename Isa> struct word_pairs {
 template <typename Isa, texel_format Texel, typename Intensity> struct word_decision {
     using ints = typename Isa::ints;
     using any_decision = decision<Isa, Texel, std::uint16_t, Intensity>;
-    static constexpr int step = Isa::bytes / static_cast<int>(sizeof(Intensity));
     static constexpr int at_once = Isa::bytes / 2; ///< 16-bit numbers in a register
+    static constexpr int step = sizeof(Intensity) == 1 ? 2 * at_once : at_once;
 
     any_decision any;
     ints nearer;               ///< codes by which z is moved
@@ -153,7 +176,10 @@ template <typename Isa, texel_format Texel, typename Intensity> struct word_deci
                             Intensity* to) noexcept {
         ints shades;
         if (!shade(by, texels, depths, shades)) return false;
-        if constexpr (sizeof(Intensity) == 2) {
+        if constexpr (std::same_as<Intensity, float>) {
+            store_fractions<Isa, unorm16>(to, shades);
+            return true;
+        } else if constexpr (sizeof(Intensity) == 2) {
             Isa::store(to, shades);
             return true;
         } else {

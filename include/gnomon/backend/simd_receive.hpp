@@ -21,9 +21,9 @@ namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 /// What decides.
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity> consteval auto choose_decision() {
     constexpr bool codes = std::same_as<Depth, std::uint16_t>;
-    if constexpr (detail::byte_pairs<Texel> && codes && std::same_as<Intensity, std::uint8_t>)
-        return std::type_identity<byte_decision<Isa, Texel>>{};
-    else if constexpr (detail::pairs_of<Texel, unorm16> && codes && !std::same_as<Intensity, float>)
+    if constexpr (detail::byte_pairs<Texel> && codes)
+        return std::type_identity<byte_decision<Isa, Texel, Intensity>>{};
+    else if constexpr (detail::pairs_of<Texel, unorm16> && codes)
         return std::type_identity<word_decision<Isa, Texel, Intensity>>{};
     else if constexpr (detail::ratios<Texel> && codes && sizeof(Intensity) <= sizeof(typename Texel::storage))
         return std::type_identity<ratio_decision<Isa, Texel, Intensity>>{};
@@ -33,7 +33,15 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
 using decision_for = typename decltype(choose_decision<Isa, Texel, Depth, Intensity>())::type;
 
-/// Receivers one to one on texels.
+/// Do spans lie side by side in memory, none of one in the other?
+template <typename A, typename B> [[nodiscard]] bool apart(strided_span<A> a, strided_span<B> b) noexcept {
+    const auto first = [](auto span) { return reinterpret_cast<std::uintptr_t>(&span[0]); };
+    const auto size = [](auto span, std::size_t each) { return static_cast<std::size_t>(span.size()) * each; };
+    return first(a) + size(a, sizeof(A)) <= first(b) || first(b) + size(b, sizeof(B)) <= first(a);
+}
+
+/// Receivers one to one on texels. The last few are decided by a register that ends with them, and so others once more, where a result is
+/// not what is read.
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
 void receive_row(strided_span<const Texel> texels, strided_span<const Depth> z, strided_span<Intensity> intensity,
                  const rule& r) noexcept {
@@ -43,10 +51,12 @@ void receive_row(strided_span<const Texel> texels, strided_span<const Depth> z, 
     const int count = lesser(texels.size(), lesser(z.size(), intensity.size()));
     GNOMON_ASSERT(!detail::overtakes(intensity, texels, count) && !detail::overtakes(intensity, z, count), detail::overtaken);
     const bool side_by_side = texels.contiguous() && z.contiguous() && intensity.contiguous();
+    const bool once_more = side_by_side && count > one::step && apart(intensity, texels) && apart(intensity, z);
     typename part::template buffer<Texel> texel;
     typename part::template buffer<Depth> depth;
     typename part::template buffer<Intensity> made;
     for (int i = 0; i < count;) {
+        if (once_more && count - i < one::step) i = count - one::step;
         const part now(i, count, side_by_side);
         one::rows(decide, now.of(texels, texel), now.of(z, depth), now.to(intensity, made), now.filled());
         now.put(intensity, made);
