@@ -135,6 +135,14 @@ TEST_CASE_TEMPLATE("clear stays clear and a full map full, to the last level", T
     }
 }
 
+TEST_CASE("the mean of four zeros that have a sign has none") {
+    using half_pair = gnomon::rg16f;
+    const gnomon::image<half_pair> below({2, 2}, {{0x8000, 0x8000}});
+    gnomon::image<half_pair> above({1, 1}, {{1, 1}});
+    gnomon::halve_region(below.view(), above.view(), {0, 0, 2, 2});
+    CHECK(above(0, 0) == half_pair{{0, 0}});
+}
+
 TEST_CASE("a region off the level halves to nothing and writes nothing") {
     const image<rg8> from({4, 4}, rg8::caster(0.5f));
     image<rg8> to({2, 2}, rg8::clear());

@@ -26,17 +26,25 @@ texel_rect halve_region(image_view<T> from, image_view<Texel> to, texel_rect reg
     region = clip(region, from.size());
     region = clip(texel_rect{region.x0 / 2, region.y0 / 2, region.x1 - region.x1 / 2, region.y1 - region.y1 / 2}, to.size());
     using wide = typename Texel::linear_sum;
-    const Texel clear = Texel::clear();
-    for (int y = region.y0; y < region.y1; ++y)
-        for (int x = region.x0; x < region.x1; ++x) {
-            wide sums[static_cast<std::size_t>(Texel::channels)]{};
-            for (int i = 0; i < 4; ++i) {
-                const int column = 2 * x + i % 2, row = 2 * y + i / 2;
-                const Texel& texel = whole(from.size()).contains(column, row) ? from(column, row) : clear;
-                for (int c = 0; c < Texel::channels; ++c) sums[c] += texel.template linear<wide>(c);
-            }
-            to(x, y) = Texel::from_linear(sums, static_cast<wide>(4));
-        }
+    const auto mean = [](const Texel& a, const Texel& b, const Texel& c, const Texel& d) {
+        wide sums[static_cast<std::size_t>(Texel::channels)];
+        for (int i = 0; i < Texel::channels; ++i)
+            sums[i] = wide{} + a.template linear<wide>(i) + b.template linear<wide>(i) + c.template linear<wide>(i) +
+                      d.template linear<wide>(i); // from a zero without a sign
+        return Texel::from_linear(sums, static_cast<wide>(4));
+    };
+    constexpr Texel clear = Texel::clear();
+    const int whole_pairs = greater(region.x0, lesser(region.x1, from.width() / 2)); // the last column may have none beside it
+    for (int y = region.y0; y < region.y1; ++y) {
+        const bool last = 2 * y + 1 == from.height(); // nor has the last row
+        const auto* const first = from.row(2 * y);
+        const auto* const second = last ? first : from.row(2 * y + 1);
+        Texel* const made = to.row(y);
+        const auto of_second = [&](int x) -> const Texel& { return last ? clear : second[x]; };
+        for (int x = region.x0; x < whole_pairs; ++x)
+            made[x] = mean(first[2 * x], first[2 * x + 1], of_second(2 * x), of_second(2 * x + 1));
+        for (int x = whole_pairs; x < region.x1; ++x) made[x] = mean(first[2 * x], clear, of_second(2 * x), clear);
+    }
     return region;
 }
 
@@ -70,8 +78,7 @@ template <texel_format Texel> class pyramid {
     ///
     /// Reads its marked tiles alone, and those of the last build: the same bits as from the whole map, if the map is clear where
     /// nothing is marked. \pre the map and its grid have the size and the tiles of the constructor; from others nothing is built.
-    /// Cost: 4 reads a texel, for a third of the area that is marked and of that which was; and a texel a level for each region of the
-    /// grid.
+    /// Cost: 4 reads a texel, for a third of the area that is marked or was; and a texel a level for each region of the grid.
     void build(image_view<const Texel> map, const tile_grid& tiles) noexcept {
         if (levels_.empty()) return; // nothing, or one texel
         const bool fits = map.size() == size() && same_tiles(tiles, built_);
@@ -83,7 +90,15 @@ template <texel_format Texel> class pyramid {
             for (int l = 2; l <= coarsest(); ++l)
                 region = halve_region(level(l - 1), levels_[static_cast<std::size_t>(l) - 1].view(), region);
         };
-        for_each_region(built_, halve);
+        const auto halve_unmarked = [&](tile_rect t, int y) { // what was marked, and is not
+            for (int x = t.x0, end; x < t.x1; x = end) {
+                for (end = x + 1; end < t.x1 && tiles.test(end, y) == tiles.test(x, y);) ++end;
+                if (!tiles.test(x, y)) halve(tiles.texels_of({x, y, end, y + 1}));
+            }
+        };
+        for_each_tile_rect(built_, [&](tile_rect t) {
+            for (int y = t.y0; y < t.y1; ++y) halve_unmarked(t, y);
+        });
         for_each_region(tiles, halve);
         built_ = tiles;
     }
