@@ -90,14 +90,10 @@ template <texel_format Texel> class pyramid {
             for (int l = 2; l <= coarsest(); ++l)
                 region = halve_region(level(l - 1), levels_[static_cast<std::size_t>(l) - 1].view(), region);
         };
-        const auto halve_unmarked = [&](tile_rect t, int y) { // what was marked, and is not
-            for (int x = t.x0, end; x < t.x1; x = end) {
-                for (end = x + 1; end < t.x1 && tiles.test(end, y) == tiles.test(x, y);) ++end;
-                if (!tiles.test(x, y)) halve(tiles.texels_of({x, y, end, y + 1}));
-            }
-        };
         for_each_tile_rect(built_, [&](tile_rect t) {
-            for (int y = t.y0; y < t.y1; ++y) halve_unmarked(t, y);
+            for (int y = t.y0; y < t.y1; ++y)
+                for (int x = t.x0; x < t.x1; ++x)
+                    if (!tiles.test(x, y)) halve(tiles.texels_of({x, y, x + 1, y + 1})); // what was marked, and is not
         });
         for_each_region(tiles, halve);
         built_ = tiles;
