@@ -140,7 +140,8 @@ def grids(path):
     """Nanoseconds, of the whole grid and of each mark, question and clearing; and how many scans of its bare rows those of the grid are."""
     runs = json.loads(pathlib.Path(path).read_text())["benchmarks"]
     time = {run["run_name"]: run["cpu_time"] / run["calls"] for run in runs if run.get("aggregate_name") == "median"}
-    over = {f"grid.{name}.over_scan": time[name] / time["scan32"] for name in time if name.endswith("32") and name != "scan32"}
+    over = {f"grid.{name}.over_scan": time[name] / time["scan32"] for name in time
+            if "scan32" in time and name.endswith("32") and name != "scan32"}
     return {f"grid.{name}.ns": ns for name, ns in time.items()} | over
 
 

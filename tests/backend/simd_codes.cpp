@@ -407,7 +407,7 @@ TEST_CASE("results packed where texels were are no texels of a register that goe
 }
 
 TEST_CASE_TEMPLATE("results may take the place of what they come from, in lanes as in the oracle", Row, byte_row, word_row,
-                   word_row_to_bytes, bytes_to_words, float_row, ratio_row, ratio_row_of_words) {
+                   word_row_to_bytes, bytes_to_words, words_to_floats, float_row, ratio_row, ratio_row_of_words) {
     using Texel = typename Row::texel;
     using Depth = typename Row::depth;
     using Intensity = typename Row::intensity;
@@ -431,13 +431,15 @@ TEST_CASE_TEMPLATE("results may take the place of what they come from, in lanes 
         const auto first_of = [](auto& memory) { return reinterpret_cast<Intensity*>(memory.data()); };
         gnomon::receive(simd<Isa>{}, in_texels, z, strided_span<Intensity>(first_of(in_texels), 321, sizeof(Texel)));
         gnomon::receive(simd<Isa>{}, packed, z, strided_span<Intensity>(first_of(packed), 321)); // element i lies before texel i
-        gnomon::receive(simd<Isa>{}, texels, in_depths, strided_span<Intensity>(first_of(in_depths), 321, sizeof(Depth)));
+        if constexpr (sizeof(Intensity) <= sizeof(Depth))
+            gnomon::receive(simd<Isa>{}, texels, in_depths, strided_span<Intensity>(first_of(in_depths), 321, sizeof(Depth)));
         int wrong = 0;
         for (int i = 0; i < 321; ++i) {
             const Intensity expected = apart[static_cast<std::size_t>(i)];
             wrong += std::memcmp(&in_texels[static_cast<std::size_t>(i)], &expected, sizeof expected) != 0;
             wrong += std::memcmp(first_of(packed) + i, &expected, sizeof expected) != 0;
-            wrong += std::memcmp(&in_depths[static_cast<std::size_t>(i)], &expected, sizeof expected) != 0;
+            if constexpr (sizeof(Intensity) <= sizeof(Depth))
+                wrong += std::memcmp(&in_depths[static_cast<std::size_t>(i)], &expected, sizeof expected) != 0;
         }
         CHECK(wrong == 0);
     });

@@ -328,6 +328,12 @@ TEST_CASE(
     CHECK(bytes == std::vector<byte>(64, 255));
 }
 
+#if defined(GNOMON_TEST_IT_IS_THERE) // of lanes that are not there nothing is tested
+TEST_CASE("the lanes that these tests are for are there") {
+    CHECK(gnomon::best_lanes() >= gnomon::detail::level_needed<GNOMON_TEST_ONE_ISA>);
+}
+#endif
+
 #if GNOMON_X86
 TEST_CASE("simd<> goes by the lanes of the processor's level, and every level below is there to be chosen") {
     for (const gnomon::cpu_level level : {gnomon::cpu_level::sse2, gnomon::cpu_level::avx2, gnomon::cpu_level::avx512}) {

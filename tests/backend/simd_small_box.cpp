@@ -43,6 +43,15 @@ TEST_CASE_TEMPLATE("small boxes of codes have the bits of the oracle, of any par
     });
 }
 
+TEST_CASE("of large maps small boxes call for the rows ahead") {
+    const image<gnomon::rg16> map({1024, 1024}, gnomon::rg16::clear());
+    image<gnomon::rg16> made(map.size());
+    gnomon::filter_scratch<gnomon::rg16, box<2>> scratch(1024);
+    test::counted_lanes::forget();
+    gnomon::simd<test::counted_lanes>{}.filter_region(map.view(), made.view(), {0, 500, 1024, 504}, scratch);
+    CHECK(test::counted_lanes::prefetches == 4 * 1024 * 2 / 8);
+}
+
 TEST_CASE("a box is small as far as its sums fit twice a byte, or as sums that run are slower") {
     CHECK((is_small_box<box<7>, gnomon::rga8> && !is_small_box<box<8>, gnomon::rg8>));
     CHECK((is_small_box<gnomon::fast<box<4>>, gnomon::rg16> && !is_small_box<box<5>, gnomon::rg16>));

@@ -240,13 +240,13 @@ TABLE
     row "$1" "$caught" "$missed" 0 $((SECONDS - began)) "broken copies of the library that turned a line red"
 }
 
-row_tests_nehalem() { test_row "$1" "simd backend" g++ "g++ -O1" "qemu-x86_64 -cpu Nehalem"; }
-row_tests_haswell() { test_row "$1" "simd backend" g++ "g++ -O1" "qemu-x86_64 -cpu Haswell"; }
+row_tests_nehalem() { test_row "$1" "simd backend" "g++ qemu-user" "g++ -O1" "qemu-x86_64 -cpu Nehalem"; }
+row_tests_haswell() { test_row "$1" "simd backend" "g++ qemu-user" "g++ -O1" "qemu-x86_64 -cpu Haswell"; }
 row_tests_aarch64() {
-    test_row "$1" "texel filter receive simd backend" "g++-aarch64-linux-gnu" "aarch64-linux-gnu-g++ -O2" "qemu-aarch64 -L /usr/aarch64-linux-gnu"
+    test_row "$1" "texel filter receive simd backend" "g++-aarch64-linux-gnu qemu-user" "aarch64-linux-gnu-g++ -O2" "qemu-aarch64 -L /usr/aarch64-linux-gnu"
 }
 row_tests_s390x() {
-    test_row "$1" "texel filter receive" "g++-s390x-linux-gnu" "s390x-linux-gnu-g++ -O1" "qemu-s390x -L /usr/s390x-linux-gnu"
+    test_row "$1" "texel filter receive" "g++-s390x-linux-gnu qemu-user" "s390x-linux-gnu-g++ -O1" "qemu-s390x -L /usr/s390x-linux-gnu"
 }
 row_tests_wasm() {
     local -x NODE_PATH=/usr/share/nodejs
@@ -257,18 +257,19 @@ row_tests_wasm() {
 row_tests_avx512() {
     can_run "$1" '' g++ g++ "${bochs_packages[@]}" || return 0
     bochs_kernel || { skip "$1" "cannot download the kernel that Bochs boots: $(tail -n 1 "$work/bochs/log")"; return 0; }
-    test_row "$1" "simd backend" g++ "g++ -O1 -static -DGNOMON_TEST_ONE_ISA=gnomon::avx512" run_in_bochs \
+    test_row "$1" "simd backend" g++ "g++ -O1 -static -DGNOMON_TEST_ONE_ISA=gnomon::avx512 -DGNOMON_TEST_IT_IS_THERE" run_in_bochs \
         '*16f>*,codes are stored rounded down*'
 }
 
-# test_row NAME FOLDERS PACKAGE COMPILER RUN [TESTS]: passed and failed are test cases. Those of millions of pairs take minutes, and are
+# test_row NAME FOLDERS PACKAGES COMPILER RUN [TESTS]: passed and failed are test cases. Those of millions of pairs take minutes, and are
 # left out, as are TESTS.
 test_row() {
-    local began=$SECONDS name=$1 folders compiler run file count binary
+    local began=$SECONDS name=$1 folders packages compiler run file count binary
     read -ra folders <<<"$2"
+    read -ra packages <<<"$3"
     read -ra compiler <<<"$4"
     read -ra run <<<"$5"
-    can_run "$name" '' "${compiler[0]}" "$3" qemu-user doctest-dev || return 0
+    can_run "$name" '' "${compiler[0]}" "${packages[@]}" doctest-dev || return 0
     binary=$(program "$name" "${compiler[0]}")
     mkdir -p "$work/$name"
     for file in main "${folders[@]/%//*}"; do printf '%s\n' "$root"/tests/$file.cpp; done |

@@ -32,7 +32,7 @@ namespace gnomon::inline GNOMON_BUILD {
 
 namespace detail {
 
-/// Each target's code goes by its own name. What lanes leave, for rows are shorter than a register of theirs, narrower ones may take.
+/// Each target's code goes by its own name. Rows too short for a register go to the next narrower lanes.
 template <typename Isa, kernel Kernel, texel_format Texel>
 bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect region,
                std::span<line_element<Texel>> scratch) noexcept {
@@ -56,9 +56,9 @@ bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect re
 /// of a NaN in half or float texels only that it is one, and but for half and float pairs of e <= -2^24 m, which no caster is, before
 /// receivers beyond 2^24.
 ///
-/// What lanes do not know is left to `scalar`: channels of a user's, `narrow` kernels but of floats, radii beyond 256, maps
-/// with rows of less than 16 numbers or of more than 2^31 with what kernels reach beyond, and of ratios far bounds, contributions and
-/// what is not exact in double; of decisions see backend/reconstruct.hpp. Too narrow a scratch only cuts a region into strips. A
+/// What lanes do not know is left to `scalar`: channels of a user's, `narrow` kernels but of floats, radii beyond 256, maps whose rows
+/// are shorter than a register (of SSE2 on x86, 8 pairs at most; of Yours) or with what kernels reach beyond have 2^31 channels, and of
+/// ratios far bounds, contributions and what is not exact in double; of decisions see backend/reconstruct.hpp. Too narrow a scratch only cuts a region into strips. A
 /// filter takes up to 48 kB of the stack.
 /// \pre the processor has the lanes that are named: ask best_lanes(). Without asserts all is left to `scalar` if it has not. simd<>
 /// has no such condition.

@@ -34,7 +34,7 @@ texel_rect halve_region(image_view<T> from, image_view<Texel> to, texel_rect reg
         return Texel::from_linear(sums, static_cast<wide>(4));
     };
     constexpr Texel clear = Texel::clear();
-    const int whole_pairs = greater(region.x0, lesser(region.x1, from.width() / 2)); // the last column may have none beside it
+    const int whole_pairs = lesser(region.x1, from.width() / 2); // the last column may have none beside it
     for (int y = region.y0; y < region.y1; ++y) {
         const bool last = 2 * y + 1 == from.height(); // nor has the last row
         const auto* const first = from.row(2 * y);
