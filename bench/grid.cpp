@@ -13,10 +13,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include <array>
 #include <bit>
 #include <cstddef>
-#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -46,17 +44,6 @@ tile_grid marked(int x_offset, unsigned seed = 1) {
     return grid;
 }
 
-/// A grid as one word a row, which is all that a scan has to read.
-using bits = std::array<std::uint64_t, side / tile>;
-bits bits_of(const tile_grid& grid) {
-    bits rows{};
-    for_each_tile_rect(grid, [&rows](tile_rect t) {
-        for (int y = t.y0; y < t.y1; ++y)
-            rows[static_cast<std::size_t>(y)] |= (std::uint64_t{1} << t.x1) - (std::uint64_t{1} << t.x0);
-    });
-    return rows;
-}
-
 /// Runs `work`, so many calls, which answers something that depends on all they did.
 template <typename Work> void add(const char* name, int calls, Work work) {
     benchmark::RegisterBenchmark(name, [work, calls](benchmark::State& state) {
@@ -75,14 +62,13 @@ int main(int count, char** words) {
     }
     const std::vector<texel_rect> casters = clusters(0);
     tile_grid grid({side, side}, tile);
-    std::vector<bits> plain;
-    for (const tile_grid& each : now) plain.push_back(bits_of(each));
-    add("scan32", turns, [&plain] {
+    static_assert(side / tile <= bits_per_word); // a row is a word, and the next lies behind it
+    add("scan32", turns, [&now] {
         int sum = 0;
-        for (const bits& rows : plain)
-            for (std::uint64_t row : rows)
-                while (row != 0) {
-                    const std::uint64_t first = row & (~row + 1), rest = row + first; // past the run's end lies what it carries into
+        for (const tile_grid& each : now)
+            for (const bit_word *at = each.row(0).words, *end = at + each.rows(); at != end; ++at)
+                for (bit_word row = *at; row != 0;) {
+                    const bit_word first = row & (~row + 1), rest = row + first; // past the run's end lies what it carries into
                     sum += std::countr_zero(first) + std::countr_zero(rest);
                     row &= rest;
                 }

@@ -58,8 +58,8 @@ bool filter_on(image_view<const Texel> from, image_view<Texel> to, texel_rect re
 ///
 /// What lanes do not know is left to `scalar`: channels of a user's, `narrow` kernels but of floats, radii beyond 256, maps whose rows
 /// are shorter than a register (of SSE2 on x86, 8 pairs at most; of Yours) or with what kernels reach beyond have 2^31 channels, and of
-/// ratios far bounds, contributions and what is not exact in double; of decisions see backend/reconstruct.hpp. Too narrow a scratch only cuts a region into strips. A
-/// filter takes up to 48 kB of the stack.
+/// ratios far bounds, contributions and what is not exact in double; of decisions see backend/reconstruct.hpp. Too narrow a scratch
+/// only cuts a region into strips. A filter takes up to 48 kB of the stack.
 /// \pre the processor has the lanes that are named: ask best_lanes(). Without asserts all is left to `scalar` if it has not. simd<>
 /// has no such condition.
 template <typename Isa = best_isa> struct simd {

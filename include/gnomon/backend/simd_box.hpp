@@ -19,6 +19,7 @@ namespace gnomon::inline GNOMON_BUILD::GNOMON_ON {
 /// Whole codes under equal weights.
 template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
     using sum = std::uint32_t;
+    using mean = mean_of<Kernel, Texel, 32>;
     using storage = typename Texel::storage;
     using ints = typename Isa::ints;
     static constexpr int channels = Texel::channels, step = Isa::float_lanes;
@@ -45,11 +46,10 @@ template <typename Isa, kernel Kernel, texel_format Texel> struct box_filter {
         accumulate(sums, window - channels + count);
         const std::uint32_t* const first = all_ + step - channels;
         const ints half = Isa::repeat32(static_cast<std::uint32_t>(Kernel::total) * Kernel::total / 2);
-        const ints factor = Isa::repeat32(static_cast<std::uint32_t>(mean_of<Kernel, Texel, 32>::factor));
+        const ints factor = Isa::repeat32(static_cast<std::uint32_t>(mean::factor));
         for (int i = 0; i < count; i += step) {
             const ints sum_of_window = Isa::subtract32(Isa::load(first + window + i), Isa::load(first + i));
-            Isa::store_low(
-                to + i, Isa::template multiply_shift32<mean_of<Kernel, Texel, 32>::shift>(Isa::add32(sum_of_window, half), factor));
+            Isa::store_low(to + i, Isa::template multiply_shift32<mean::shift>(Isa::add32(sum_of_window, half), factor));
         }
     }
 

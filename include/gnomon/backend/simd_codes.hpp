@@ -123,8 +123,8 @@ template <typename Isa> struct word_pairs {
         const ints even = Isa::even_lanes(first, second), odd = Isa::odd_lanes(first, second);
         return {Isa::even_words(even, odd), Isa::odd_words(even, odd)};
     }
-    /// A mask as the result is made of it: a code of 16 bits itself, or the nearest of 8 bits, floor(t / 257) where t is M + 128 or, if that is
-    /// less, 65535; and that is the upper byte of t - floor(t / 256), for every t.
+    /// A mask as the result is made of it: a code of 16 bits itself, or the nearest of 8 bits, floor(t / 257) where t is M + 128 or, if
+    /// that is less, 65535; and that is the upper byte of t - floor(t / 256), for every t.
     template <typename Intensity> GNOMON_LANES ints stored(const ints& mask) noexcept {
         if constexpr (sizeof(Intensity) > 1) {
             return mask;

@@ -33,13 +33,6 @@ template <typename Isa, texel_format Texel, typename Depth, typename Intensity> 
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
 using decision_for = typename decltype(choose_decision<Isa, Texel, Depth, Intensity>())::type;
 
-/// Do spans lie side by side in memory, none of one in the other?
-template <typename A, typename B> [[nodiscard]] bool apart(strided_span<A> a, strided_span<B> b) noexcept {
-    const auto first = [](auto span) { return reinterpret_cast<std::uintptr_t>(&span[0]); };
-    const auto size = [](auto span, std::size_t each) { return static_cast<std::size_t>(span.size()) * each; };
-    return first(a) + size(a, sizeof(A)) <= first(b) || first(b) + size(b, sizeof(B)) <= first(a);
-}
-
 /// Receivers one to one on texels. The last few are decided by a register that ends with them, and so others once more, where a result is
 /// not what is read.
 template <typename Isa, texel_format Texel, typename Depth, typename Intensity>
@@ -51,7 +44,7 @@ void receive_row(strided_span<const Texel> texels, strided_span<const Depth> z, 
     const int count = lesser(texels.size(), lesser(z.size(), intensity.size()));
     GNOMON_ASSERT(!detail::overtakes(intensity, texels, count) && !detail::overtakes(intensity, z, count), detail::overtaken);
     const bool side_by_side = texels.contiguous() && z.contiguous() && intensity.contiguous();
-    const bool once_more = side_by_side && count > one::step && apart(intensity, texels) && apart(intensity, z);
+    const bool once_more = side_by_side && count > one::step && detail::apart(intensity, texels) && detail::apart(intensity, z);
     typename part::template buffer<Texel> texel;
     typename part::template buffer<Depth> depth;
     typename part::template buffer<Intensity> made;

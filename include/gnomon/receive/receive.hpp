@@ -47,6 +47,12 @@ template <typename To, typename From>
     const std::ptrdiff_t k = least < 0 ? 1 : least / stride + 1;
     return k < count && k * stride < least + to_size + from_size;
 }
+/// Have two spans no byte in common? \pre both are contiguous, and not empty
+template <typename A, typename B> [[nodiscard]] bool apart(strided_span<A> a, strided_span<B> b) noexcept {
+    const auto first_a = reinterpret_cast<std::uintptr_t>(&a[0]), first_b = reinterpret_cast<std::uintptr_t>(&b[0]);
+    return first_a + static_cast<std::size_t>(a.size()) * sizeof(A) <= first_b ||
+           first_b + static_cast<std::size_t>(b.size()) * sizeof(B) <= first_a;
+}
 inline constexpr const char* overtaken =
     "gnomon: results of receivers lie on what is read of later ones: write in place, or elsewhere";
 } // namespace detail
